@@ -1,0 +1,3 @@
+/// The command meshreel.
+// SPDX-License-Identifier: MIT
+int main() { return 0; }

@@ -1,0 +1,126 @@
+/// Whole files by POSIX calls, each failure with the system's reason.
+// SPDX-License-Identifier: MIT
+#include "meshreel/base/file.h"
+
+#include <cerrno>
+#include <algorithm>
+#include <cstring>
+#include <fcntl.h>
+#include <random>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+#include "meshreel/base/text.h"
+
+namespace meshreel {
+
+namespace {
+
+Error system_error(const std::string& path, const char* what)
+{
+    return {ErrorCode::io, concat(what, ": ", std::strerror(errno)), {}, path, {}};
+}
+
+struct Descriptor {
+    int number;
+    ~Descriptor()
+    {
+        if (number > 2) ::close(number);
+    }
+};
+
+/// A sibling name that nobody else uses; the randomness only avoids collisions.
+std::string temporary_name(const std::string& path)
+{
+    return concat(path, ".", static_cast<unsigned>(::getpid()), "-", std::random_device{}(), ".tmp");
+}
+
+} // namespace
+
+Result<Bytes> read_file(const std::string& path, const DecodeLimits& limits)
+{
+    const Descriptor file{path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (file.number < 0) return system_error(path, "cannot open");
+    struct stat status {};
+    if (::fstat(file.number, &status) == 0 && S_ISDIR(status.st_mode))
+        return Error{ErrorCode::io, "is a folder, not a file", {}, path, {}};
+    Bytes bytes;
+    bytes.reserve(S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) <= limits.max_memory
+                      ? static_cast<std::size_t>(status.st_size) + 1
+                      : 0);
+    constexpr std::size_t piece_size = 1 << 20;
+    for (;;) {
+        const std::size_t filled = bytes.size();
+        bytes.resize(filled + std::min(piece_size, std::max<std::size_t>(bytes.capacity() - filled, 4096)));
+        const ssize_t got = ::read(file.number, bytes.data() + filled, bytes.size() - filled);
+        if (got < 0 && errno == EINTR) {
+            bytes.resize(filled);
+            continue;
+        }
+        if (got < 0) return system_error(path, "cannot read");
+        bytes.resize(filled + static_cast<std::size_t>(got));
+        if (got == 0) return bytes;
+        if (bytes.size() > limits.max_memory)
+            return in_file(Result<Bytes>(bad_input(concat("is larger than the memory limit of ", limits.max_memory, " bytes"))),
+                           path);
+    }
+}
+
+AtomicFile::AtomicFile(std::string path, std::string temporary, int descriptor)
+    : path_(std::move(path)), temporary_(std::move(temporary)), descriptor_(descriptor)
+{
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1))
+{
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (descriptor_ > 2) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite)
+{
+    if (path == "-") return AtomicFile(path, {}, STDOUT_FILENO);
+    if (!overwrite && ::access(path.c_str(), F_OK) == 0)
+        return Error{ErrorCode::usage, "exists already; pass -y to overwrite it", {}, path, {}};
+    std::string temporary = temporary_name(path);
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0) return system_error(path, "cannot write");
+    return AtomicFile(path, std::move(temporary), descriptor);
+}
+
+Status AtomicFile::write(ByteView bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t put = ::write(descriptor_, bytes.data(), bytes.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) return system_error(path_, "cannot write");
+        bytes = bytes.subspan(static_cast<std::size_t>(put));
+    }
+    return Ok{};
+}
+
+Status AtomicFile::commit()
+{
+    if (temporary_.empty()) return Ok{};
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) return system_error(path_, "cannot write");
+    if (::close(std::exchange(descriptor_, -1)) != 0) return system_error(path_, "cannot write");
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) return system_error(path_, "cannot rename into place");
+    temporary_.clear();
+    return Ok{};
+}
+
+Status write_file(const std::string& path, ByteView bytes, bool overwrite)
+{
+    MESHREEL_TRY(AtomicFile file, AtomicFile::create(path, overwrite));
+    MESHREEL_CHECK(file.write(bytes));
+    return file.commit();
+}
+
+} // namespace meshreel

@@ -1,0 +1,43 @@
+/// Whole files in and out: reads with a cap, writes to a temporary name and renames.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "meshreel/base/limits.h"
+#include "meshreel/base/result.h"
+#include "meshreel/base/views.h"
+
+namespace meshreel {
+
+/// All bytes of a file; "-" is standard input. @fails io: cannot be opened or read; bad_input: larger than the limit.
+Result<Bytes> read_file(const std::string& path, const DecodeLimits& limits = {});
+
+/// A file that appears under its name only when complete. Until commit() the bytes stand in a temporary file beside it,
+/// which the destructor removes. "-" is standard output.
+class AtomicFile {
+public:
+    /// @fails io: the folder cannot be written; usage: the file exists and `overwrite` is false.
+    static Result<AtomicFile> create(const std::string& path, bool overwrite);
+
+    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile&&) = delete;
+    ~AtomicFile();
+
+    /// Appends. @fails io: the disk is full, or the file went away.
+    Status write(ByteView bytes);
+    /// Makes the file appear under its name, with all its bytes on disk.
+    Status commit();
+
+private:
+    AtomicFile(std::string path, std::string temporary, int descriptor);
+
+    std::string path_;
+    std::string temporary_; ///< empty once committed, and for standard output
+    int descriptor_;
+};
+
+/// Writes a whole file at once, by AtomicFile.
+Status write_file(const std::string& path, ByteView bytes, bool overwrite);
+
+} // namespace meshreel

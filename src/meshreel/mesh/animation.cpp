@@ -1,0 +1,113 @@
+/// Validity of an animation, and its size.
+// SPDX-License-Identifier: MIT
+#include "meshreel/mesh/animation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshreel/base/id.h"
+#include "meshreel/base/text.h"
+
+namespace meshreel {
+
+namespace {
+
+Status validate_triangles(const Animation& animation)
+{
+    for (std::size_t t = 0; t < animation.triangles.size(); ++t)
+        for (std::uint32_t v : animation.triangles[t])
+            if (v >= animation.vertex_count)
+                return bad_input(concat("triangle ", t, " names vertex ", v, ", but there are ", animation.vertex_count),
+                                 "triangles");
+    return Ok{};
+}
+
+Status validate_positions(const Animation& animation)
+{
+    const std::size_t frame_size = animation.vertex_count * 3ul;
+    for (std::size_t i = 0; i < animation.positions.size(); ++i)
+        if (!std::isfinite(animation.positions[i]))
+            return bad_input(concat("frame ", i / frame_size, ", vertex ", i % frame_size / 3, ", ", std::string(1, "xyz"[i % 3]), " is ",
+                                    std::isnan(animation.positions[i]) ? "not a number" : "infinite"),
+                             "positions");
+    return Ok{};
+}
+
+Status validate_times(const Animation& animation)
+{
+    const auto& times = animation.times_s;
+    for (std::size_t f = 0; f < times.size(); ++f) {
+        if (!std::isfinite(times[f])) return bad_input(concat("the time of frame ", f, " is not finite"), "times");
+        if (f > 0 && !(times[f] > times[f - 1]))
+            return bad_input(concat("frame ", f, " is not later than the frame before it"), "times");
+    }
+    return Ok{};
+}
+
+std::size_t element_count(const Animation& animation, Domain domain)
+{
+    if (domain == Domain::vertex) return animation.vertex_count;
+    return animation.triangles.size() * (domain == Domain::corner ? 3 : 1);
+}
+
+Status validate_attribute(const Animation& animation, const Attribute& attribute)
+{
+    const std::size_t value_size = scalar_size(attribute.type) * attribute.components;
+    if (attribute.components < 1 || attribute.components > 16 || attribute.values.size() % value_size != 0)
+        return bad_input("its values are not a whole number of components", attribute.name);
+    const std::size_t elements = element_count(animation, attribute.domain);
+    const std::size_t entries = attribute.indices.empty() ? attribute.value_count() : attribute.indices.size();
+    if (entries != elements) return bad_input(concat(entries, " entries for ", elements, " elements"), attribute.name);
+    for (std::uint32_t index : attribute.indices)
+        if (index != VertexId::none && index >= attribute.value_count())
+            return bad_input(concat("index ", index, " is beyond its ", attribute.value_count(), " values"), attribute.name);
+    return Ok{};
+}
+
+} // namespace
+
+const Attribute* Appearance::find(const std::string& name) const
+{
+    const auto found = std::ranges::find(attributes, name, &Attribute::name);
+    return found == attributes.end() ? nullptr : &*found;
+}
+
+std::vector<double> uniform_times(std::size_t frame_count, double fps, double start_s)
+{
+    std::vector<double> times(frame_count);
+    for (std::size_t f = 0; f < frame_count; ++f) times[f] = start_s + static_cast<double>(f) / fps;
+    return times;
+}
+
+Status validate(const Animation& animation)
+{
+    if (animation.vertex_count == 0) return bad_input("there is no vertex", "vertex_count");
+    if (animation.times_s.empty()) return bad_input("there is no frame", "frame_count");
+    if (animation.positions.size() != animation.frame_count() * animation.vertex_count * 3)
+        return bad_input(concat(animation.positions.size(), " numbers for ", animation.frame_count(), " frames of ",
+                                animation.vertex_count, " vertices"),
+                         "positions");
+    MESHREEL_CHECK(validate_triangles(animation));
+    MESHREEL_CHECK(validate_positions(animation));
+    MESHREEL_CHECK(validate_times(animation));
+    for (const Attribute& attribute : animation.appearance.attributes)
+        MESHREEL_CHECK(validate_attribute(animation, attribute));
+    return Ok{};
+}
+
+double body_diagonal(const Animation& animation)
+{
+    double square = 0;
+    const std::span<const float> first = animation.frame(0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double low = first[axis], high = first[axis];
+        for (std::size_t i = axis; i < first.size(); i += 3) {
+            low = std::min<double>(low, first[i]);
+            high = std::max<double>(high, first[i]);
+        }
+        square += (high - low) * (high - low);
+    }
+    return std::sqrt(square);
+}
+
+} // namespace meshreel
