@@ -1,28 +1,35 @@
-/// Principal component analysis of the columns of a tall or wide matrix; encoder side.
+/// Principal component analysis of trajectories; encoder side.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "meshreel/base/parallel.h"
-#include "meshreel/base/progress.h"
 #include "meshreel/base/views.h"
 
 namespace meshreel::linalg {
 
-/// A mean and an orthonormal basis of trajectories. n = 3F, N the number of trajectories.
+/// A mean and an orthonormal basis of the space of trajectories; n = 3F. Row c F + f of a trajectory holds coordinate
+/// c (0 x, 1 y, 2 z) in frame f.
 struct Pca {
-    std::vector<double> mean;            ///< m, [n]: row coord * F + f holds coordinate coord in frame f
-    Matrix<double> basis;                ///< B, [K x n]: row k is the k-th eigentrajectory, unit length
-    std::vector<double> singular_values; ///< s_k, [K], falling; s_k^2 sums the squared coefficients c_k over all vertices
-    double residual = 0.0;               ///< squared norm of what the K components leave, sum over all trajectories
+    std::vector<double> mean;            ///< m, [n]
+    Matrix<double> basis;                ///< B, [K x n]: row k is the k-th eigentrajectory, of unit length
+    std::vector<double> singular_values; ///< s_k, [K], falling; s_k^2 is the sum of squared coefficients c_k
+    double energy = 0.0;                 ///< squared norm of all trajectories less the mean
 };
 
-/// PCA of vertex trajectories. frames: [F x 3N], frame after frame, x y z of each vertex.
-/// At most max_components components, fewer where the rest is zero. The same result for any number of threads.
-/// @cost O(N n min(n, N)) for n or N below about 2000, O(N n K) beyond (block subspace iteration).  @source thesis 8.1.1
-Pca pca_of_trajectories(MatrixView<const float> frames, std::size_t max_components, Threads threads,
-                        const Progress& progress = {});
+/// PCA of the trajectories of N vertices. frames: [F x 3N], frame after frame, x y z of each vertex. At most
+/// max_components components, fewer where the rest is zero to double precision. The same result for any number of
+/// threads.
+/// @cost O(N n d + d^2 K), d = min(n, N); memory O(d^2 + n K) beside the frames.  @source thesis 8.1.1
+Pca pca_of_trajectories(MatrixView<const float> frames, std::size_t max_components, Threads threads);
+
+/// Coefficients of every trajectory in a basis that need not be orthonormal: least squares, C = (B B^T)^-1 B (X - m).
+/// mean [n], basis [K x n]; returns C [N x K].
+/// @cost O(N n K).
+Matrix<double> project(MatrixView<const float> frames, std::span<const double> mean, MatrixView<const double> basis,
+                       Threads threads);
 
 } // namespace meshreel::linalg
