@@ -1,0 +1,39 @@
+# The commands to remember.
+.PHONY: build demo check test fuzz bench bench-rate format docs clean
+
+build:          ## the command: build/meshreel
+	cmake --preset release
+	cmake --build build --target meshreel-cli
+
+demo:           ## a sample animation through the whole road, a table and a picture
+	./demo
+
+check:          ## everything that CI checks
+	./check
+
+test:           ## the fast tests of a development build
+	cmake --preset dev
+	cmake --build build-dev
+	ctest --test-dir build-dev --output-on-failure -LE slow -j2
+
+fuzz:           ## every fuzz target for a minute
+	tools/fuzz.sh 60
+
+bench:          ## speeds and memory
+	cmake --preset bench
+	cmake --build build-bench
+	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
+
+bench-rate:     ## rates at given errors
+	cmake --preset bench
+	cmake --build build-bench
+	tools/rate.py --command build-bench/meshreel --ledger bench/ledger.csv
+
+format:         ## clang-format on every source
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+docs:           ## the pages that are made from the code
+	tools/deviations.py
+
+clean:
+	rm -rf build build-* demo-out

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Installs from Debian what is missing and asks nothing: for ./demo; --check: for ./check too; --with-blender: Blender for its tests.
+# SPDX-License-Identifier: MIT
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+packages=(
+    g++ cmake ninja-build pkg-config python3
+    libeigen3-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev libzstd-dev libpng-dev libtinygltf-dev
+)
+check_packages=(
+    libgtest-dev libgmock-dev ccache clang clang-format libclang-rt-14-dev universal-ctags
+)
+gltf_validator=2.0.0-dev.3.10
+
+want_check=no
+for option in "$@"; do
+    case $option in
+        --check) want_check=yes; packages+=("${check_packages[@]}") ;;
+        --with-blender) packages+=(blender python3-numpy) ;;
+        *) echo "usage: tools/install.sh [--check] [--with-blender]" >&2; exit 1 ;;
+    esac
+done
+# Whoever has a Node of his own keeps it.
+if [ $want_check = yes ]; then
+    command -v node >/dev/null || packages+=(nodejs)
+    command -v npm >/dev/null || packages+=(npm)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+    state=$(dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | head -n 1 || true)
+    [ "$state" = installed ] || missing+=("$package")
+done
+
+if [ ${#missing[@]} -gt 0 ]; then
+    echo "installing: ${missing[*]}" >&2
+    as_root=(env)
+    [ "$(id -u)" -eq 0 ] || as_root=(sudo env)
+    export_quiet=(DEBIAN_FRONTEND=noninteractive NEEDRESTART_MODE=a)
+    "${as_root[@]}" "${export_quiet[@]}" apt-get update -q >&2
+    "${as_root[@]}" "${export_quiet[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
+fi
+
+if [ $want_check = yes ] && [ ! -d "$root/node_modules/gltf-validator" ]; then
+    npm install --prefix "$root" --no-save --no-package-lock --no-audit --no-fund --loglevel=error \
+        "gltf-validator@$gltf_validator" >&2
+fi
