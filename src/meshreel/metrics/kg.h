@@ -1,0 +1,22 @@
+/// KG error: the norm of the difference, in percent of the norm of the motion and shape around each frame's centroid.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "meshreel/base/parallel.h"
+#include "meshreel/metrics/motion.h"
+
+namespace meshreel::metrics {
+
+/// 100 |A - A'| / |A - E(A)|, percent, >= 0; E(A) holds each frame's centroid. 0 for equal motions, also where the
+/// denominator is 0 (each frame a single point); otherwise infinite there.
+/// @cost O(F V).  @source thesis 5.2, (5.2); Karni and Gotsman 2004
+double kg_error(const Pair<float>& pair, Threads threads = {});
+double kg_error(const Pair<double>& pair, Threads threads = {});
+
+/// Of two animations with the same V and F.
+inline double kg_error(const Animation& original, const Animation& distorted, Threads threads = {})
+{
+    return kg_error(pair_of(original, distorted), threads);
+}
+
+} // namespace meshreel::metrics
