@@ -106,11 +106,18 @@ Status AtomicFile::write(ByteView bytes)
     return Ok{};
 }
 
+Status AtomicFile::finish()
+{
+    if (temporary_.empty() || descriptor_ < 0) return Ok{};
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) return system_error(path_, "cannot write");
+    if (::close(std::exchange(descriptor_, -1)) != 0) return system_error(path_, "cannot write");
+    return Ok{};
+}
+
 Status AtomicFile::commit()
 {
     if (temporary_.empty()) return Ok{};
-    if (::fsync(descriptor_) != 0 && errno != EINVAL) return system_error(path_, "cannot write");
-    if (::close(std::exchange(descriptor_, -1)) != 0) return system_error(path_, "cannot write");
+    MESHREEL_CHECK(finish());
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) return system_error(path_, "cannot rename into place");
     temporary_.clear();
     return Ok{};
