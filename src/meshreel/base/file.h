@@ -14,10 +14,10 @@ namespace meshreel {
 Result<Bytes> read_file(const std::string& path, const DecodeLimits& limits = {});
 
 /// A file that appears under its name only when complete. Until commit() the bytes stand in a temporary file beside it,
-/// which the destructor removes. "-" is standard output.
+/// which the destructor removes. "-" is standard output; a device or a pipe is written straight.
 class AtomicFile {
 public:
-    /// @fails io: the folder cannot be written; usage: the file exists and `overwrite` is false.
+    /// @fails io: the folder cannot be written, or `path` is one; usage: the file exists and `overwrite` is false.
     static Result<AtomicFile> create(const std::string& path, bool overwrite);
 
     AtomicFile(AtomicFile&& other) noexcept;
@@ -26,8 +26,6 @@ public:
 
     /// Appends. @fails io: the disk is full, or the file went away.
     Status write(ByteView bytes);
-    /// All bytes are written: puts them on disk and frees the descriptor, so that thousands of files can wait for commit().
-    Status finish();
     /// Makes the file appear under its name, with all its bytes on disk.
     Status commit();
 
