@@ -24,10 +24,8 @@ bench:          ## speeds and memory
 	cmake --build build-bench
 	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
 
-bench-rate:     ## rates at given errors
-	cmake --preset bench
-	cmake --build build-bench
-	tools/rate.py --command build-bench/meshreel --ledger bench/ledger.csv
+bench-rate: build   ## rates at given errors, and bench/ledger.csv
+	bench/rate.py --ledger bench/ledger.csv
 
 format:         ## clang-format on every source
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i
