@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "meshreel/base/file.h"
 
-#include <algorithm>
 #include <cerrno>
+#include <algorithm>
 #include <cstring>
 #include <fcntl.h>
 #include <random>
@@ -62,9 +62,8 @@ Result<Bytes> read_file(const std::string& path, const DecodeLimits& limits)
         bytes.resize(filled + static_cast<std::size_t>(got));
         if (got == 0) return bytes;
         if (bytes.size() > limits.max_memory)
-            return in_file(
-                Result<Bytes>(bad_input(concat("is larger than the memory limit of ", limits.max_memory, " bytes"))),
-                path);
+            return in_file(Result<Bytes>(bad_input(concat("is larger than the memory limit of ", limits.max_memory, " bytes"))),
+                           path);
     }
 }
 
@@ -96,7 +95,8 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite)
         if (device < 0) return system_error(path, "cannot write");
         return AtomicFile(path, {}, device);
     }
-    if (there && !overwrite) return Error{ErrorCode::usage, "exists already; pass -y to overwrite it", {}, path, {}};
+    if (there && !overwrite)
+        return Error{ErrorCode::usage, "exists already; pass -y to overwrite it", {}, path, {}};
     std::string temporary = temporary_name(path);
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) return system_error(path, "cannot write");
@@ -114,11 +114,18 @@ Status AtomicFile::write(ByteView bytes)
     return Ok{};
 }
 
+Status AtomicFile::finish()
+{
+    if (temporary_.empty() || descriptor_ < 0) return Ok{};
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) return system_error(path_, "cannot write");
+    if (::close(std::exchange(descriptor_, -1)) != 0) return system_error(path_, "cannot write");
+    return Ok{};
+}
+
 Status AtomicFile::commit()
 {
     if (temporary_.empty()) return Ok{};
-    if (::fsync(descriptor_) != 0 && errno != EINVAL) return system_error(path_, "cannot write");
-    if (::close(std::exchange(descriptor_, -1)) != 0) return system_error(path_, "cannot write");
+    MESHREEL_CHECK(finish());
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) return system_error(path_, "cannot rename into place");
     temporary_.clear();
     return Ok{};

@@ -26,6 +26,8 @@ public:
 
     /// Appends. @fails io: the disk is full, or the file went away.
     Status write(ByteView bytes);
+    /// All bytes are written: puts them on disk and frees the descriptor, so that thousands of files can wait for commit().
+    Status finish();
     /// Makes the file appear under its name, with all its bytes on disk.
     Status commit();
 

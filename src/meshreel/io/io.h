@@ -24,7 +24,7 @@ struct FrameRange {
 
 struct LoadOptions {
     std::string mesh;     ///< the mesh of a point cache (PC2, MDD): a path of any mesh format
-    std::string clip;     ///< the clip of a file with several (glTF, MD2, MD3), by name; empty: the first
+    std::string clip;     ///< the clip of a file with several (glTF, MD2), by name; empty: the first (MD2: all frames)
     double fps = 0.0;     ///< frames a second: the sampling rate of a baked file, the timing of a sequence; 0: the file's
     FrameRange frames;
     DecodeLimits limits;
@@ -43,6 +43,7 @@ struct SaveOptions {
     std::uint32_t bases = 0; ///< K for Morphs::pca; 0: as many as an error of 0.01 % of the body diagonal needs
     bool binary = true;      ///< PLY
     Progress progress;
+    std::function<void(std::string)> warn; ///< told what the animation holds and the file cannot; may be empty
 };
 
 /// One row of the registry. A format that cannot do a direction leaves its function null.

@@ -1,0 +1,76 @@
+/// The one table of formats, and the two functions that use it.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+
+#include "meshreel/base/text.h"
+#include "meshreel/io/io.h"
+#include "meshreel/io/obj.h"
+#include "meshreel/io/point_cache.h"
+
+namespace meshreel::io {
+
+namespace {
+
+constexpr std::string_view obj_extensions[] = {"obj"};
+constexpr std::string_view pc2_extensions[] = {"pc2"};
+constexpr std::string_view mdd_extensions[] = {"mdd"};
+
+constexpr Format table[] = {
+    {"obj", obj_extensions, "Wavefront OBJ, one file a frame", load_obj, save_obj},
+    {"pc2", pc2_extensions, "PointCache2, positions of a mesh, evenly spaced", load_pc2, save_pc2},
+    {"mdd", mdd_extensions, "MDD, positions of a mesh, with times", load_mdd, save_mdd},
+};
+
+char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::string extension_of(const std::string& path)
+{
+    const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
+    if (dot == std::string::npos || (slash != std::string::npos && slash > dot)) return {};
+    std::string extension = path.substr(dot + 1);
+    std::ranges::transform(extension, extension.begin(), lower);
+    return extension;
+}
+
+} // namespace
+
+std::span<const Format> formats()
+{
+    return table;
+}
+
+Result<const Format*> format_of(const std::string& path)
+{
+    const std::string extension = extension_of(path);
+    std::string known;
+    for (const Format& format : table)
+        for (std::string_view one : format.extensions) {
+            if (one == extension) return &format;
+            known += concat(known.empty() ? "." : " .", one);
+        }
+    return Error{ErrorCode::unsupported, "no format has this extension; known are " + known, {}, path, {}};
+}
+
+Result<Animation> load(const std::string& path, const LoadOptions& options)
+{
+    MESHREEL_TRY(const Format* format, format_of(path));
+    if (!format->load)
+        return Error{ErrorCode::unsupported, concat(format->name, " files are only written"), {}, path, {}};
+    MESHREEL_TRY(Animation animation, in_file(format->load(path, options), path));
+    MESHREEL_CHECK(in_file(validate(animation), path));
+    return animation;
+}
+
+Status save(const Animation& animation, const std::string& path, const SaveOptions& options)
+{
+    MESHREEL_TRY(const Format* format, format_of(path));
+    if (!format->save) return Error{ErrorCode::unsupported, concat(format->name, " files are only read"), {}, path, {}};
+    MESHREEL_CHECK(in_file(validate(animation), path));
+    return in_file(format->save(animation, path, options), path);
+}
+
+} // namespace meshreel::io

@@ -1,0 +1,46 @@
+/// The real sequences beside the project, where they are: counts, and no warning that is not expected.
+// SPDX-License-Identifier: MIT
+#include "tests/io/made.h"
+
+using namespace meshreel;
+using namespace meshreel::io;
+using namespace meshreel::io::test;
+
+namespace {
+
+const std::string data = std::string(MESHREEL_SOURCE_DIR) + "/../shared/data/";
+
+struct Counts {
+    const char* name;
+    std::uint32_t vertices;
+    std::size_t triangles, frames;
+};
+
+} // namespace
+
+class RealSequence : public testing::TestWithParam<Counts> {};
+
+TEST_P(RealSequence, IsReadWithItsCounts)
+{
+    const Counts expected = GetParam();
+    if (!std::filesystem::exists(data + expected.name)) GTEST_SKIP() << "no data beside the project";
+    LoadOptions options;
+    options.fps = 25;
+    options.mesh = data + expected.name + "/mesh.obj";
+    options.warn = [](const std::string& sentence) { ADD_FAILURE() << sentence; };
+    const auto read = load(data + expected.name + "/motion.pc2", options);
+    ASSERT_TRUE(read.ok()) << why(read);
+    EXPECT_EQ(read->vertex_count, expected.vertices);
+    EXPECT_EQ(read->triangles.size(), expected.triangles);
+    EXPECT_EQ(read->frame_count(), expected.frames);
+    EXPECT_EQ(read->times_s.back(), static_cast<double>(expected.frames - 1) / 25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, RealSequence,
+                         testing::Values(Counts{"chicken", 3030, 5664, 400}, Counts{"dance", 7061, 14118, 201},
+                                         Counts{"cow", 2904, 5804, 204}, Counts{"crane", 10002, 20000, 175},
+                                         Counts{"horse_gallop", 8431, 16843, 48}, Counts{"walker", 13380, 26756, 120},
+                                         Counts{"cloth", 10000, 19602, 200}, Counts{"flag", 6144, 11970, 150},
+                                         Counts{"snake", 9179, 18354, 134}, Counts{"dolphin", 4012, 8000, 101},
+                                         Counts{"bone", 754, 1504, 400}),
+                         [](const auto& made) { return made.param.name; });
