@@ -11,12 +11,19 @@
 
 namespace meshreel::metrics {
 
+/// What a metric promises not to see when both animations undergo it.
+struct Invariance {
+    bool translation, rotation, scale;
+};
+
 /// One row of the registry.
 struct Metric {
-    std::string_view name;    ///< "kg", as in --kg and in JSON
-    std::string_view title;   ///< "KG error"
-    std::string_view unit;    ///< "%", "units", "dB", ""
-    std::string_view source;  ///< "thesis (5.2)"
+    std::string_view name;   ///< "kg", as in --kg and in JSON
+    std::string_view title;  ///< "KG error"
+    std::string_view unit;   ///< "%", "units", "dB", ""
+    std::string_view source; ///< "thesis (5.2)"
+    double equal;            ///< the value of equal animations: 0, or infinity where larger is better
+    Invariance invariance;
     /// original and distorted have the same V and F (see comparable). Larger is worse, but for PSNR.
     double (*measure)(const Animation& original, const Animation& distorted, Threads threads);
 };

@@ -2,17 +2,29 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "meshreel/base/text.h"
 #include "meshreel/metrics/kg.h"
 #include "meshreel/metrics/metric.h"
+#include "meshreel/metrics/sted.h"
+#include "meshreel/metrics/vertex_error.h"
 
 namespace meshreel::metrics {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Invariance all_three{true, true, true}, but_rotation{true, false, true}, but_scale{true, true, false};
+
 constexpr std::array table{
-    Metric{"kg", "KG error", "%", "thesis (5.2)", kg_error},
+    Metric{"kg", "KG error", "%", "thesis (5.2)", 0.0, all_three, kg_error},
+    Metric{"rms", "RMS error", "units", "root mean squared vertex distance", 0.0, but_scale, rms_error},
+    Metric{"max_error", "largest error", "units", "largest vertex distance", 0.0, but_scale, max_error},
+    Metric{"max_error_relative", "largest error", "% of the body diagonal", "largest vertex distance", 0.0,
+           but_rotation, max_error_relative},
+    Metric{"psnr", "PSNR", "dB", "thesis 5.1, as 10 log10(D^2 / MSE)", infinity, but_rotation, psnr},
+    Metric{"sted", "STED", "", "thesis (7.4)-(7.14)", 0.0, all_three, sted_error},
 };
 
 } // namespace

@@ -1,0 +1,34 @@
+/// Measures of how far vertices are from where they were: RMS, largest error, PSNR.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "meshreel/base/parallel.h"
+#include "meshreel/mesh/animation.h"
+
+namespace meshreel::metrics {
+
+/// Distances |p - p'| of all vertices in all frames, squared.
+struct VertexError {
+    double mean_square = 0.0; ///< sum of squared distances / (F V): a mean over vertices, not over coordinates
+    double largest_square = 0.0;
+};
+
+/// Both animations have the same V and F. The same for any number of threads. @cost O(F V).
+VertexError vertex_error(const Animation& original, const Animation& distorted, Threads threads = {});
+
+/// Root of the mean squared distance, model units.
+double rms_error(const Animation& original, const Animation& distorted, Threads threads = {});
+
+/// The largest distance of any vertex in any frame, model units.
+double max_error(const Animation& original, const Animation& distorted, Threads threads = {});
+
+/// The largest distance in percent of the original's body diagonal (see body_diagonal). Where that is 0: 0 for equal
+/// animations, else infinite.
+double max_error_relative(const Animation& original, const Animation& distorted, Threads threads = {});
+
+/// 10 log10(D^2 / MSE), dB; D the original's body diagonal, MSE the mean squared distance of vertices (a third of it,
+/// the mean over coordinates, would give 4.77 dB more). Larger is better; infinite for equal animations, minus infinite
+/// where D is 0 and they differ.  DEVIATES (5.1): that prints 20 log of a mean square, without its sign.
+double psnr(const Animation& original, const Animation& distorted, Threads threads = {});
+
+} // namespace meshreel::metrics
