@@ -1,0 +1,157 @@
+/// Gathers triangles, attributes, materials and names of a glTF scene in the order in which its vertices are baked.
+// SPDX-License-Identifier: MIT
+#include "meshreel/io/gltf_appearance.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "meshreel/base/text.h"
+#include "meshreel/io/gltf_names.h"
+
+namespace meshreel::io {
+
+namespace {
+
+using Warn = std::function<void(std::string)>;
+
+/// An attribute as it grows, and the vertices that have it.
+struct Column {
+    Attribute attribute;
+    std::vector<std::array<std::uint32_t, 2>> runs; ///< first vertex, count
+    std::uint64_t covered = 0;
+};
+
+using Columns = std::vector<Column>;
+
+Column& column_for(Columns& columns, const std::string& name, const Accessor& values)
+{
+    const auto fits = [&](const Column& column) {
+        const Attribute& a = column.attribute;
+        return a.type == values.type && a.components == values.components && a.normalized == values.normalized;
+    };
+    bool taken = false;
+    for (Column& column : columns) {
+        if (column.attribute.name.substr(0, column.attribute.name.find('|')) != name) continue;
+        if (fits(column)) return column;
+        taken = true;
+    }
+    Column fresh;
+    fresh.attribute = {name, Domain::vertex, values.type, values.components, values.normalized, {}, {}};
+    if (taken) fresh.attribute.name = variant_name(fresh.attribute);
+    columns.push_back(std::move(fresh));
+    return columns.back();
+}
+
+Status gather(const GltfDocument& document, const GltfVertices& vertices, std::uint32_t first, Columns& columns, const Warn& warn)
+{
+    const Json attributes = vertices.primitive.member("attributes");
+    for (const auto& item : attributes.value->items()) {
+        const std::string& semantic = item.key();
+        const std::optional<std::string> name = attribute_name(semantic);
+        if (!name) {
+            const bool baked = semantic == "POSITION" || semantic.compare(0, 7, "JOINTS_") == 0 || semantic.compare(0, 8, "WEIGHTS_") == 0;
+            if (!baked && warn) warn(concat(attributes.path, ".", semantic, ": is no attribute of glTF and left out"));
+            continue;
+        }
+        MESHREEL_TRY(const Accessor found, accessor(document, attributes.member(semantic.c_str())));
+        if (found.count != vertices.count)
+            return attributes.member(semantic.c_str()).wrong(concat(found.count, " values for ", vertices.count, " vertices"));
+        MESHREEL_TRY(const Bytes packed, packed_values(found));
+        Column& column = column_for(columns, *name, found);
+        column.attribute.values.insert(column.attribute.values.end(), packed.begin(), packed.end());
+        column.runs.push_back({first, vertices.count});
+        column.covered += vertices.count;
+    }
+    return Ok{};
+}
+
+/// Vertices that no run covers have no value.
+Status finish(const GltfDocument& document, Column&& column, Animation& animation)
+{
+    if (column.covered < animation.vertex_count) {
+        MESHREEL_CHECK(document.budget->take(animation.vertex_count * 4ull, document.json().member("meshes")));
+        column.attribute.indices.assign(animation.vertex_count, gltf_none);
+        std::uint32_t value = 0;
+        for (const auto& [first, count] : column.runs)
+            for (std::uint32_t v = 0; v < count; ++v) column.attribute.indices[first + v] = value++;
+    }
+    animation.appearance.attributes.push_back(std::move(column.attribute));
+    return Ok{};
+}
+
+/// A number a triangle; gltf_none: no value.
+Attribute triangle_attribute(const char* name, const std::vector<std::uint32_t>& numbers)
+{
+    Attribute attribute{name, Domain::triangle, Scalar::u32, 1, false, {}, {}};
+    const bool gaps = std::find(numbers.begin(), numbers.end(), gltf_none) != numbers.end();
+    if (gaps) attribute.indices.assign(numbers.size(), gltf_none);
+    for (std::size_t t = 0; t < numbers.size(); ++t) {
+        if (numbers[t] == gltf_none) continue;
+        if (gaps) attribute.indices[t] = static_cast<std::uint32_t>(attribute.values.size() / 4);
+        for (unsigned shift = 0; shift < 32; shift += 8) attribute.values.push_back(static_cast<std::uint8_t>(numbers[t] >> shift));
+    }
+    return attribute;
+}
+
+struct TriangleNumbers {
+    std::vector<std::uint32_t> materials, groups;
+    std::map<std::string, std::size_t> nodes; ///< how often each node name came up
+};
+
+/// The triangles of one node, in the order of its mesh's primitives.
+Status add_triangles(const GltfDocument& document, const GltfNode& node, std::span<const GltfPart> parts, const GltfMesh& mesh,
+                     bool mirrored, Animation& animation, TriangleNumbers& numbers)
+{
+    const std::size_t instance = ++numbers.nodes[node.name];
+    for (const GltfTriangles& primitive : mesh.primitives) {
+        const std::uint64_t total = animation.triangles.size() + primitive.triangles.size();
+        MESHREEL_CHECK(within(total, document.limits.max_triangles, "triangle_count"));
+        MESHREEL_CHECK(document.budget->take(primitive.triangles.size() * 28, document.json().member("nodes")));
+        const std::uint32_t first = parts[primitive.vertices].first;
+        for (const Triangle& t : primitive.triangles)
+            animation.triangles.push_back({first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]});
+        numbers.materials.resize(total, primitive.material);
+        numbers.groups.resize(total, static_cast<std::uint32_t>(animation.appearance.groups.size()));
+        animation.appearance.groups.push_back(GltfGroup{node.name, instance, mesh.name, primitive.primitive}.name());
+    }
+    return Ok{};
+}
+
+Status read_triangles(const GltfDocument& document, const GltfScene& scene, const GltfBody& body, Animation& animation, const Warn& warn)
+{
+    const GltfPose rest = pose_at(scene, nullptr, 0);
+    TriangleNumbers numbers;
+    for (std::size_t p = 0; p < body.parts.size(); ++p) {
+        const GltfPart& part = body.parts[p];
+        if (part.set != 0) continue;
+        const GltfNode& node = scene.nodes[part.node];
+        const bool mirrored = !part.skinned && rest.world[part.node].determinant() < 0;
+        if (mirrored && warn) warn(concat("nodes[", part.node, "]: is mirrored; its triangles are turned round"));
+        MESHREEL_CHECK(add_triangles(document, node, std::span(body.parts).subspan(p), body.meshes[part.mesh], mirrored, animation, numbers));
+    }
+    const bool any = std::any_of(numbers.materials.begin(), numbers.materials.end(), [](std::uint32_t m) { return m != gltf_none; });
+    if (any) animation.appearance.attributes.push_back(triangle_attribute("material", numbers.materials));
+    animation.appearance.attributes.push_back(triangle_attribute("group", numbers.groups));
+    return Ok{};
+}
+
+} // namespace
+
+Status read_gltf_appearance(const GltfDocument& document, const GltfScene& scene, const GltfBody& body, Animation& animation,
+                            const Warn& warn)
+{
+    Columns columns;
+    for (const GltfPart& part : body.parts)
+        MESHREEL_CHECK(gather(document, body.meshes[part.mesh].vertices[part.set], part.first, columns, warn));
+    for (Column& column : columns) MESHREEL_CHECK(finish(document, std::move(column), animation));
+    MESHREEL_CHECK(read_triangles(document, scene, body, animation, warn));
+    const Json materials = document.json().member("materials");
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        MESHREEL_TRY(std::string name, materials.element(m).member("name").text_or(concat("material_", m)));
+        animation.appearance.materials.push_back(std::move(name));
+    }
+    return read_gltf_assets(document, animation.appearance, warn);
+}
+
+} // namespace meshreel::io

@@ -1,0 +1,42 @@
+/// Bakes a glTF scene: where every vertex is at a time, nodes, skins and morph targets applied.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "meshreel/io/gltf_geometry.h"
+
+namespace meshreel::io {
+
+/// One vertex set of one node: a run of the animation's vertices.
+struct GltfPart {
+    std::uint32_t node = 0;
+    std::uint32_t mesh = 0;       ///< into GltfBody::meshes
+    std::uint32_t set = 0;        ///< into GltfMesh::vertices
+    std::uint32_t first = 0;      ///< its first vertex in the animation
+    bool skinned = false;
+};
+
+/// Everything that is shown, in node order.
+struct GltfBody {
+    std::vector<GltfMesh> meshes; ///< by mesh number; those not shown stay empty
+    std::vector<GltfPart> parts;
+    std::uint32_t vertex_count = 0;
+};
+
+/// Reads every mesh that a visible node shows. @fails bad_input: no triangle mesh; too many vertices; a joint out of range.
+Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene, const std::function<void(std::string)>& warn);
+
+/// The scene at one time.
+struct GltfPose {
+    std::vector<Affine> world;                ///< a node
+    std::vector<std::vector<double>> weights; ///< a node
+    std::vector<std::vector<Affine>> joints;  ///< a skin: world times inverse bind matrix, a joint
+};
+
+/// clip may be null: the rest pose.
+GltfPose pose_at(const GltfScene& scene, const GltfClip* clip, double time_s);
+
+/// Positions of all vertices, world space, rounded once. out: [V x 3].
+/// @source glTF 2.0, 3.7.3.3: p = sum_j w_j G_j B_j (rest + sum_k m_k target_k)
+void bake(const GltfScene& scene, const GltfBody& body, const GltfPose& pose, std::span<float> out);
+
+} // namespace meshreel::io
