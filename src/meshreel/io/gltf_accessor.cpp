@@ -15,13 +15,20 @@ Result<Scalar> component_type(const Json& field)
 {
     MESHREEL_TRY(const std::uint64_t number, field.integer(1u << 16));
     switch (number) {
-    case 5120: return Scalar::i8;
-    case 5121: return Scalar::u8;
-    case 5122: return Scalar::i16;
-    case 5123: return Scalar::u16;
-    case 5125: return Scalar::u32;
-    case 5126: return Scalar::f32;
-    default: return field.wrong(concat(number, " is no component type"));
+    case 5120:
+        return Scalar::i8;
+    case 5121:
+        return Scalar::u8;
+    case 5122:
+        return Scalar::i16;
+    case 5123:
+        return Scalar::u16;
+    case 5125:
+        return Scalar::u32;
+    case 5126:
+        return Scalar::f32;
+    default:
+        return field.wrong(concat(number, " is no component type"));
     }
 }
 
@@ -38,7 +45,8 @@ Result<std::uint8_t> component_count(const Json& field)
 }
 
 /// count elements of `size` bytes, `stride` apart, from `offset` on, all inside the view.
-Result<const std::uint8_t*> elements(ByteView view, const Json& offset_field, std::uint64_t count, std::size_t size, std::size_t stride)
+Result<const std::uint8_t*> elements(ByteView view, const Json& offset_field, std::uint64_t count, std::size_t size,
+                                     std::size_t stride)
 {
     MESHREEL_TRY(const std::uint64_t offset, offset_field.integer_or(0, view.size() + 1));
     const std::uint64_t room = view.size() - offset;
@@ -53,11 +61,13 @@ Status read_dense(const GltfDocument& document, Accessor& found)
     if (!reference) return Ok{};
     MESHREEL_TRY(const std::uint64_t number, reference.integer(document.count("bufferViews")));
     MESHREEL_TRY(const ByteView view, buffer_view(document, number));
-    MESHREEL_TRY(const std::uint64_t stride, document.item("bufferViews", number).member("byteStride").integer_or(found.element_size(), 253));
+    MESHREEL_TRY(const std::uint64_t stride,
+                 document.item("bufferViews", number).member("byteStride").integer_or(found.element_size(), 253));
     if (stride < found.element_size())
         return document.item("bufferViews", number).member("byteStride").wrong("is smaller than an element");
     found.stride = stride;
-    MESHREEL_TRY(found.data, elements(view, found.where.member("byteOffset"), found.count, found.element_size(), stride));
+    MESHREEL_TRY(found.data,
+                 elements(view, found.where.member("byteOffset"), found.count, found.element_size(), stride));
     return Ok{};
 }
 
@@ -73,10 +83,12 @@ Status read_sparse(const GltfDocument& document, Accessor& found)
     const std::size_t size = scalar_size(found.sparse_type), value_size = found.element_size();
     MESHREEL_TRY(const std::uint64_t index_view, indices.member("bufferView").integer(document.count("bufferViews")));
     MESHREEL_TRY(const ByteView index_bytes, buffer_view(document, index_view));
-    MESHREEL_TRY(found.sparse_indices, elements(index_bytes, indices.member("byteOffset"), found.sparse_count, size, size));
+    MESHREEL_TRY(found.sparse_indices,
+                 elements(index_bytes, indices.member("byteOffset"), found.sparse_count, size, size));
     MESHREEL_TRY(const std::uint64_t value_view, values.member("bufferView").integer(document.count("bufferViews")));
     MESHREEL_TRY(const ByteView value_bytes, buffer_view(document, value_view));
-    MESHREEL_TRY(found.sparse_values, elements(value_bytes, values.member("byteOffset"), found.sparse_count, value_size, value_size));
+    MESHREEL_TRY(found.sparse_values,
+                 elements(value_bytes, values.member("byteOffset"), found.sparse_count, value_size, value_size));
     return Ok{};
 }
 
@@ -97,10 +109,14 @@ std::uint32_t unsigned_at(const std::uint8_t* bytes, Scalar type)
 float float_at(const std::uint8_t* bytes, Scalar type)
 {
     switch (type) {
-    case Scalar::f32: return number_at<float>(bytes);
-    case Scalar::i8: return static_cast<float>(number_at<std::int8_t>(bytes));
-    case Scalar::i16: return static_cast<float>(number_at<std::int16_t>(bytes));
-    default: return static_cast<float>(unsigned_at(bytes, type));
+    case Scalar::f32:
+        return number_at<float>(bytes);
+    case Scalar::i8:
+        return static_cast<float>(number_at<std::int8_t>(bytes));
+    case Scalar::i16:
+        return static_cast<float>(number_at<std::int16_t>(bytes));
+    default:
+        return static_cast<float>(unsigned_at(bytes, type));
     }
 }
 
@@ -108,19 +124,26 @@ float float_at(const std::uint8_t* bytes, Scalar type)
 double full_scale(Scalar type)
 {
     switch (type) {
-    case Scalar::u8: return 255;
-    case Scalar::i8: return 127;
-    case Scalar::u16: return 65535;
-    case Scalar::i16: return 32767;
-    case Scalar::u32: return 4294967295.0;
-    default: return 1;
+    case Scalar::u8:
+        return 255;
+    case Scalar::i8:
+        return 127;
+    case Scalar::u16:
+        return 65535;
+    case Scalar::i16:
+        return 32767;
+    case Scalar::u32:
+        return 4294967295.0;
+    default:
+        return 1;
     }
 }
 
 Status expect_components(const Accessor& accessor, std::uint8_t components)
 {
     if (components == 0 || accessor.components == components) return Ok{};
-    return accessor.where.member("type").wrong(concat(accessor.components, " components where ", components, " are needed"));
+    return accessor.where.member("type").wrong(
+        concat(accessor.components, " components where ", components, " are needed"));
 }
 
 } // namespace
@@ -141,9 +164,11 @@ Result<Accessor> accessor(const GltfDocument& document, const Json& user)
     MESHREEL_TRY(found.type, component_type(found.where.member("componentType")));
     MESHREEL_TRY(found.components, component_count(found.where.member("type")));
     MESHREEL_TRY(found.normalized, found.where.member("normalized").truth_or(false));
-    MESHREEL_TRY(found.count, found.where.member("count").integer(document.limits.max_memory / found.element_size() + 1));
+    MESHREEL_TRY(found.count,
+                 found.where.member("count").integer(document.limits.max_memory / found.element_size() + 1));
     MESHREEL_TRY(const std::string type, found.where.member("type").text_or(""));
-    if (type[0] == 'M' && scalar_size(found.type) < 4) return unsupported("matrices of small integers are not read", found.where.path);
+    if (type[0] == 'M' && scalar_size(found.type) < 4)
+        return unsupported("matrices of small integers are not read", found.where.path);
     MESHREEL_CHECK(read_dense(document, found));
     MESHREEL_CHECK(read_sparse(document, found));
     return found;
@@ -157,11 +182,14 @@ Result<Bytes> packed_values(const Accessor& accessor)
     if (accessor.data != nullptr && accessor.stride == size && accessor.count > 0)
         std::memcpy(packed.data(), accessor.data, packed.size());
     else if (accessor.data != nullptr)
-        for (std::size_t i = 0; i < accessor.count; ++i) std::memcpy(&packed[i * size], accessor.data + i * accessor.stride, size);
+        for (std::size_t i = 0; i < accessor.count; ++i)
+            std::memcpy(&packed[i * size], accessor.data + i * accessor.stride, size);
     for (std::size_t i = 0; i < accessor.sparse_count; ++i) {
-        const std::uint32_t index = unsigned_at(accessor.sparse_indices + i * scalar_size(accessor.sparse_type), accessor.sparse_type);
+        const std::uint32_t index =
+            unsigned_at(accessor.sparse_indices + i * scalar_size(accessor.sparse_type), accessor.sparse_type);
         if (index >= accessor.count)
-            return accessor.where.member("sparse").member("indices").wrong(concat("index ", index, " is beyond the ", accessor.count, " elements"));
+            return accessor.where.member("sparse").member("indices").wrong(
+                concat("index ", index, " is beyond the ", accessor.count, " elements"));
         std::memcpy(&packed[index * size], accessor.sparse_values + i * size, size);
     }
     return packed;
@@ -181,7 +209,8 @@ Result<Numbers> numbers(const Accessor& accessor, std::uint8_t components)
     const float lowest = accessor.normalized ? static_cast<float>(-full_scale(accessor.type)) : -INFINITY;
     for (std::size_t i = 0; i < result.values.size(); ++i) {
         const float value = float_at(&packed[i * size], accessor.type);
-        if (!std::isfinite(value)) return accessor.where.wrong(concat("element ", i / accessor.components, " is not a finite number"));
+        if (!std::isfinite(value))
+            return accessor.where.wrong(concat("element ", i / accessor.components, " is not a finite number"));
         result.values[i] = accessor.type == Scalar::f32 ? value : std::max(value, lowest);
     }
     return result;

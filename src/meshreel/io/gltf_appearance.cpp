@@ -43,20 +43,23 @@ Column& column_for(Columns& columns, const std::string& name, const Accessor& va
     return columns.back();
 }
 
-Status gather(const GltfDocument& document, const GltfVertices& vertices, std::uint32_t first, Columns& columns, const Warn& warn)
+Status gather(const GltfDocument& document, const GltfVertices& vertices, std::uint32_t first, Columns& columns,
+              const Warn& warn)
 {
     const Json attributes = vertices.primitive.member("attributes");
     for (const auto& item : attributes.value->items()) {
         const std::string& semantic = item.key();
         const std::optional<std::string> name = attribute_name(semantic);
         if (!name) {
-            const bool baked = semantic == "POSITION" || semantic.compare(0, 7, "JOINTS_") == 0 || semantic.compare(0, 8, "WEIGHTS_") == 0;
+            const bool baked = semantic == "POSITION" || semantic.compare(0, 7, "JOINTS_") == 0 ||
+                               semantic.compare(0, 8, "WEIGHTS_") == 0;
             if (!baked && warn) warn(concat(attributes.path, ".", semantic, ": is no attribute of glTF and left out"));
             continue;
         }
         MESHREEL_TRY(const Accessor found, accessor(document, attributes.member(semantic.c_str())));
         if (found.count != vertices.count)
-            return attributes.member(semantic.c_str()).wrong(concat(found.count, " values for ", vertices.count, " vertices"));
+            return attributes.member(semantic.c_str())
+                .wrong(concat(found.count, " values for ", vertices.count, " vertices"));
         MESHREEL_TRY(const Bytes packed, packed_values(found));
         Column& column = column_for(columns, *name, found);
         column.attribute.values.insert(column.attribute.values.end(), packed.begin(), packed.end());
@@ -89,7 +92,8 @@ Attribute triangle_attribute(const char* name, const std::vector<std::uint32_t>&
     for (std::size_t t = 0; t < numbers.size(); ++t) {
         if (numbers[t] == gltf_none) continue;
         if (gaps) attribute.indices[t] = static_cast<std::uint32_t>(attribute.values.size() / 4);
-        for (unsigned shift = 0; shift < 32; shift += 8) attribute.values.push_back(static_cast<std::uint8_t>(numbers[t] >> shift));
+        for (unsigned shift = 0; shift < 32; shift += 8)
+            attribute.values.push_back(static_cast<std::uint8_t>(numbers[t] >> shift));
     }
     return attribute;
 }
@@ -100,8 +104,8 @@ struct TriangleNumbers {
 };
 
 /// The triangles of one node, in the order of its mesh's primitives.
-Status add_triangles(const GltfDocument& document, const GltfNode& node, std::span<const GltfPart> parts, const GltfMesh& mesh,
-                     bool mirrored, Animation& animation, TriangleNumbers& numbers)
+Status add_triangles(const GltfDocument& document, const GltfNode& node, std::span<const GltfPart> parts,
+                     const GltfMesh& mesh, bool mirrored, Animation& animation, TriangleNumbers& numbers)
 {
     const std::size_t instance = ++numbers.nodes[node.name];
     for (const GltfTriangles& primitive : mesh.primitives) {
@@ -118,7 +122,8 @@ Status add_triangles(const GltfDocument& document, const GltfNode& node, std::sp
     return Ok{};
 }
 
-Status read_triangles(const GltfDocument& document, const GltfScene& scene, const GltfBody& body, Animation& animation, const Warn& warn)
+Status read_triangles(const GltfDocument& document, const GltfScene& scene, const GltfBody& body, Animation& animation,
+                      const Warn& warn)
 {
     const GltfPose rest = pose_at(scene, nullptr, 0);
     TriangleNumbers numbers;
@@ -128,9 +133,11 @@ Status read_triangles(const GltfDocument& document, const GltfScene& scene, cons
         const GltfNode& node = scene.nodes[part.node];
         const bool mirrored = !part.skinned && rest.world[part.node].determinant() < 0;
         if (mirrored && warn) warn(concat("nodes[", part.node, "]: is mirrored; its triangles are turned round"));
-        MESHREEL_CHECK(add_triangles(document, node, std::span(body.parts).subspan(p), body.meshes[part.mesh], mirrored, animation, numbers));
+        MESHREEL_CHECK(add_triangles(document, node, std::span(body.parts).subspan(p), body.meshes[part.mesh], mirrored,
+                                     animation, numbers));
     }
-    const bool any = std::any_of(numbers.materials.begin(), numbers.materials.end(), [](std::uint32_t m) { return m != gltf_none; });
+    const bool any =
+        std::any_of(numbers.materials.begin(), numbers.materials.end(), [](std::uint32_t m) { return m != gltf_none; });
     if (any) animation.appearance.attributes.push_back(triangle_attribute("material", numbers.materials));
     animation.appearance.attributes.push_back(triangle_attribute("group", numbers.groups));
     return Ok{};
@@ -138,8 +145,8 @@ Status read_triangles(const GltfDocument& document, const GltfScene& scene, cons
 
 } // namespace
 
-Status read_gltf_appearance(const GltfDocument& document, const GltfScene& scene, const GltfBody& body, Animation& animation,
-                            const Warn& warn)
+Status read_gltf_appearance(const GltfDocument& document, const GltfScene& scene, const GltfBody& body,
+                            Animation& animation, const Warn& warn)
 {
     Columns columns;
     for (const GltfPart& part : body.parts)

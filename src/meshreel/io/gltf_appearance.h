@@ -9,10 +9,11 @@ namespace meshreel::io {
 /// Fills triangles and appearance of an animation whose vertices are those of `body`. Triangles of mirrored nodes are
 /// turned round, told to `warn`, so that they face outwards in world space.
 /// @fails bad_input: an attribute that disagrees with POSITION in its count, a broken image.
-Status read_gltf_appearance(const GltfDocument& document, const GltfScene& scene, const GltfBody& body, Animation& animation,
-                            const std::function<void(std::string)>& warn);
+Status read_gltf_appearance(const GltfDocument& document, const GltfScene& scene, const GltfBody& body,
+                            Animation& animation, const std::function<void(std::string)>& warn);
 
 /// Materials, textures, samplers and images as assets.
-Status read_gltf_assets(const GltfDocument& document, Appearance& appearance, const std::function<void(std::string)>& warn);
+Status read_gltf_assets(const GltfDocument& document, Appearance& appearance,
+                        const std::function<void(std::string)>& warn);
 
 } // namespace meshreel::io

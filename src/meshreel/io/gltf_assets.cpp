@@ -14,7 +14,8 @@ using Warn = std::function<void(std::string)>;
 
 bool begins(const Bytes& bytes, std::size_t at, std::string_view start)
 {
-    return bytes.size() >= at + start.size() && std::string_view(reinterpret_cast<const char*>(bytes.data()) + at, start.size()) == start;
+    return bytes.size() >= at + start.size() &&
+           std::string_view(reinterpret_cast<const char*>(bytes.data()) + at, start.size()) == start;
 }
 
 /// By the first bytes.
@@ -43,7 +44,8 @@ Result<Bytes> image_bytes(const GltfDocument& document, const Json& image)
 }
 
 /// The image becomes an asset and its JSON loses the reference; where it cannot be read it keeps its URI instead.
-Status take_image(const GltfDocument& document, std::size_t number, nlohmann::json& images, Appearance& appearance, const Warn& warn)
+Status take_image(const GltfDocument& document, std::size_t number, nlohmann::json& images, Appearance& appearance,
+                  const Warn& warn)
 {
     const Json image = document.item("images", number);
     if (!image.value->is_object()) return image.wrong("is no object");
@@ -77,7 +79,8 @@ Status read_gltf_assets(const GltfDocument& document, Appearance& appearance, co
     for (std::size_t i = 0; i < document.count("images"); ++i)
         MESHREEL_CHECK(take_image(document, i, carried["images"], appearance, warn));
     const std::string text = carried.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    appearance.assets.insert(appearance.assets.begin(), {gltf_materials_name, gltf_materials_type, Bytes(text.begin(), text.end())});
+    appearance.assets.insert(appearance.assets.begin(),
+                             {gltf_materials_name, gltf_materials_type, Bytes(text.begin(), text.end())});
     return Ok{};
 }
 

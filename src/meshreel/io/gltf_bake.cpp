@@ -16,8 +16,8 @@ Status check_joints(const GltfVertices& vertices, const GltfSkin& skin)
     for (std::size_t i = 0; i < vertices.joints.size(); ++i)
         if (vertices.joints[i] >= skin.joints.size() && vertices.weights[i] != 0)
             return vertices.primitive.member("attributes")
-                .wrong(concat("vertex ", i / vertices.influences, " names joint ", vertices.joints[i], " of a skin with ",
-                              skin.joints.size()));
+                .wrong(concat("vertex ", i / vertices.influences, " names joint ", vertices.joints[i],
+                              " of a skin with ", skin.joints.size()));
     return Ok{};
 }
 
@@ -41,12 +41,14 @@ Status add_node(const GltfDocument& document, const GltfScene& scene, std::uint3
 std::vector<double> morphed(const GltfVertices& vertices, const std::vector<double>& weights)
 {
     std::vector<double> positions(vertices.count * 3ul);
-    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = static_cast<double>(vertices.rest.values[i]) * vertices.rest.unit;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        positions[i] = static_cast<double>(vertices.rest.values[i]) * vertices.rest.unit;
     for (std::size_t t = 0; t < std::min(weights.size(), vertices.targets.size()); ++t) {
         const Numbers& target = vertices.targets[t];
         const double factor = weights[t] * target.unit;
         if (factor == 0 || target.values.empty()) continue;
-        for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += factor * static_cast<double>(target.values[i]);
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            positions[i] += factor * static_cast<double>(target.values[i]);
     }
     return positions;
 }
@@ -71,9 +73,15 @@ void apply(const GltfClip& clip, double time_s, std::vector<Trs>& local, std::ve
         const GltfSampler& sampler = clip.samplers[channel.sampler];
         Trs& trs = local[channel.node];
         switch (channel.path) {
-        case AnimatedPath::translation: sample(sampler, channel.path, time_s, trs.translation); break;
-        case AnimatedPath::rotation: sample(sampler, channel.path, time_s, trs.rotation); break;
-        case AnimatedPath::scale: sample(sampler, channel.path, time_s, trs.scale); break;
+        case AnimatedPath::translation:
+            sample(sampler, channel.path, time_s, trs.translation);
+            break;
+        case AnimatedPath::rotation:
+            sample(sampler, channel.path, time_s, trs.rotation);
+            break;
+        case AnimatedPath::scale:
+            sample(sampler, channel.path, time_s, trs.scale);
+            break;
         case AnimatedPath::weights:
             weights[channel.node].resize(sampler.width);
             sample(sampler, channel.path, time_s, weights[channel.node]);
@@ -84,7 +92,8 @@ void apply(const GltfClip& clip, double time_s, std::vector<Trs>& local, std::ve
 
 } // namespace
 
-Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene, const std::function<void(std::string)>& warn)
+Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene,
+                                const std::function<void(std::string)>& warn)
 {
     GltfBody body;
     body.meshes.resize(document.count("meshes"));

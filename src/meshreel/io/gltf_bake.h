@@ -9,9 +9,9 @@ namespace meshreel::io {
 /// One vertex set of one node: a run of the animation's vertices.
 struct GltfPart {
     std::uint32_t node = 0;
-    std::uint32_t mesh = 0;       ///< into GltfBody::meshes
-    std::uint32_t set = 0;        ///< into GltfMesh::vertices
-    std::uint32_t first = 0;      ///< its first vertex in the animation
+    std::uint32_t mesh = 0;  ///< into GltfBody::meshes
+    std::uint32_t set = 0;   ///< into GltfMesh::vertices
+    std::uint32_t first = 0; ///< its first vertex in the animation
     bool skinned = false;
 };
 
@@ -23,7 +23,8 @@ struct GltfBody {
 };
 
 /// Reads every mesh that a visible node shows. @fails bad_input: no triangle mesh; too many vertices; a joint out of range.
-Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene, const std::function<void(std::string)>& warn);
+Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene,
+                                const std::function<void(std::string)>& warn);
 
 /// The scene at one time.
 struct GltfPose {

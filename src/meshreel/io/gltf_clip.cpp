@@ -64,17 +64,20 @@ std::size_t target_count(const GltfDocument& document, std::uint32_t mesh)
 /// Fixes how many numbers a key has, and that the output has them all.
 Status fit_output(GltfSampler& sampler, std::size_t width, const Json& channel)
 {
-    if (sampler.used && sampler.width != width) return channel.wrong("shares its sampler with a channel of another width");
+    if (sampler.used && sampler.width != width)
+        return channel.wrong("shares its sampler with a channel of another width");
     const std::size_t parts = sampler.interpolation == Interpolation::cubic ? 3 : 1;
     if (sampler.output.values.size() != sampler.times.size() * parts * width)
-        return channel.wrong(concat("its sampler has ", sampler.output.values.size(), " numbers, but ", sampler.times.size(), " keys of ",
-                                    parts * width, " need ", sampler.times.size() * parts * width));
+        return channel.wrong(concat("its sampler has ", sampler.output.values.size(), " numbers, but ",
+                                    sampler.times.size(), " keys of ", parts * width, " need ",
+                                    sampler.times.size() * parts * width));
     sampler.used = true;
     sampler.width = width;
     return Ok{};
 }
 
-Status read_channel(const GltfDocument& document, const GltfScene& scene, const Json& json, GltfClip& clip, const Warn& warn)
+Status read_channel(const GltfDocument& document, const GltfScene& scene, const Json& json, GltfClip& clip,
+                    const Warn& warn)
 {
     const Json target = json.member("target");
     MESHREEL_TRY(const std::string name, target.member("path").text_or(""));
@@ -86,8 +89,11 @@ Status read_channel(const GltfDocument& document, const GltfScene& scene, const 
     MESHREEL_TRY(const std::uint64_t node, target.member("node").integer(scene.nodes.size()));
     MESHREEL_TRY(const std::uint64_t sampler, json.member("sampler").integer(clip.samplers.size()));
     const bool weights = *path == AnimatedPath::weights;
-    if (scene.nodes[node].has_matrix && !weights) return target.wrong(concat("animates node ", node, ", which has a matrix"));
-    const std::size_t width = weights ? target_count(document, scene.nodes[node].mesh) : *path == AnimatedPath::rotation ? 4 : 3;
+    if (scene.nodes[node].has_matrix && !weights)
+        return target.wrong(concat("animates node ", node, ", which has a matrix"));
+    const std::size_t width = weights                           ? target_count(document, scene.nodes[node].mesh)
+                              : *path == AnimatedPath::rotation ? 4
+                                                                : 3;
     if (width == 0) {
         tell(warn, concat(json.path, ": animates the weights of a node without morph targets, which is left out"));
         return Ok{};
@@ -126,7 +132,8 @@ void sample_slerp(const GltfSampler& sampler, std::size_t k, double fraction, st
         second = std::sin(angle * fraction) / std::sin(angle);
     }
     if (dot < 0) second = -second;
-    const double a = first_square > 0 ? first / std::sqrt(first_square) : 0, b = second_square > 0 ? second / std::sqrt(second_square) : 0;
+    const double a = first_square > 0 ? first / std::sqrt(first_square) : 0,
+                 b = second_square > 0 ? second / std::sqrt(second_square) : 0;
     for (std::size_t i = 0; i < 4; ++i) out[i] = a * sampler.key(k, 1, i) + b * sampler.key(k + 1, 1, i);
 }
 
@@ -189,7 +196,8 @@ double GltfSampler::key(std::size_t k, std::size_t part, std::size_t i) const
     return static_cast<double>(output.values[place * width + i]) * output.unit;
 }
 
-Result<GltfClip> read_gltf_clip(const GltfDocument& document, const GltfScene& scene, std::size_t number, const Warn& warn)
+Result<GltfClip> read_gltf_clip(const GltfDocument& document, const GltfScene& scene, std::size_t number,
+                                const Warn& warn)
 {
     const Json json = document.item("animations", number);
     GltfClip clip;
@@ -236,13 +244,16 @@ Result<ClipTimes> clip_times(const GltfClip& clip, double fps, const DecodeLimit
             return grid_times(keys, places);
         }
         fps = 30;
-        tell(warn, concat("the keys of clip \"", clip.name, "\" stand on no uniform grid; it is sampled at 30 frames a second"));
+        tell(warn, concat("the keys of clip \"", clip.name,
+                          "\" stand on no uniform grid; it is sampled at 30 frames a second"));
     }
     const double steps = std::floor(length * fps + 1e-3);
     if (!(steps < static_cast<double>(limits.max_frames)))
-        return bad_input(concat("the clip lasts ", length, " s: more than ", limits.max_frames, " frames"), "animations");
+        return bad_input(concat("the clip lasts ", length, " s: more than ", limits.max_frames, " frames"),
+                         "animations");
     if (length * fps - steps > 2e-3)
-        tell(warn, concat("clip \"", clip.name, "\" ends at ", keys.back(), " s, ", (length - steps / fps) * 1000, " ms after its last frame"));
+        tell(warn, concat("clip \"", clip.name, "\" ends at ", keys.back(), " s, ", (length - steps / fps) * 1000,
+                          " ms after its last frame"));
     return ClipTimes{uniform_times(static_cast<std::size_t>(steps) + 1, fps, keys.front()), fps};
 }
 

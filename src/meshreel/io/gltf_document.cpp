@@ -30,18 +30,22 @@ struct GlbChunks {
 Result<GlbChunks> read_chunks(ByteView file)
 {
     if (file.size() < 20) return bad_input("a GLB has at least 20 bytes", "header", at_byte(file.size()));
-    if (u32_at(file, 4) != 2) return unsupported(concat("GLB version ", u32_at(file, 4), "; only 2 is known"), "version");
+    if (u32_at(file, 4) != 2)
+        return unsupported(concat("GLB version ", u32_at(file, 4), "; only 2 is known"), "version");
     if (u32_at(file, 8) != file.size())
-        return bad_input(concat("is ", u32_at(file, 8), ", but the file has ", file.size(), " bytes"), "length", at_byte(8));
+        return bad_input(concat("is ", u32_at(file, 8), ", but the file has ", file.size(), " bytes"), "length",
+                         at_byte(8));
     GlbChunks chunks;
     std::size_t at = 12;
     for (std::size_t number = 0; at < file.size(); ++number) {
         if (file.size() - at < 8) return bad_input("a chunk's header is cut short", "chunk", at_byte(at));
         const std::size_t length = u32_at(file, at);
         const std::uint32_t type = u32_at(file, at + 4);
-        if (length > file.size() - at - 8) return bad_input("reaches beyond the file's end", "chunkLength", at_byte(at));
+        if (length > file.size() - at - 8)
+            return bad_input("reaches beyond the file's end", "chunkLength", at_byte(at));
         const ByteView body = file.subspan(at + 8, length);
-        if ((type == json_chunk) != (number == 0)) return bad_input("the first chunk, and only it, is JSON", "chunkType", at_byte(at + 4));
+        if ((type == json_chunk) != (number == 0))
+            return bad_input("the first chunk, and only it, is JSON", "chunkType", at_byte(at + 4));
         if (type == json_chunk) chunks.json = {reinterpret_cast<const char*>(body.data()), body.size()};
         if (type == binary_chunk && number == 1) {
             chunks.binary = body;
@@ -91,7 +95,8 @@ std::string percent_decoded(std::string_view uri)
 {
     std::string plain;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool escape = uri[i] == '%' && i + 2 < uri.size() && hex_value(uri[i + 1]) >= 0 && hex_value(uri[i + 2]) >= 0;
+        const bool escape =
+            uri[i] == '%' && i + 2 < uri.size() && hex_value(uri[i + 1]) >= 0 && hex_value(uri[i + 2]) >= 0;
         plain += escape ? static_cast<char>(hex_value(uri[i + 1]) * 16 + hex_value(uri[i + 2])) : uri[i];
         if (escape) i += 2;
     }
@@ -101,7 +106,8 @@ std::string percent_decoded(std::string_view uri)
 /// Relative, and never above where it starts.
 bool stays_below(std::string_view path)
 {
-    if (path.empty() || path.front() == '/' || path.find('\\') != path.npos || path.find('\0') != path.npos) return false;
+    if (path.empty() || path.front() == '/' || path.find('\\') != path.npos || path.find('\0') != path.npos)
+        return false;
     for (std::size_t at = 0; at <= path.size();) {
         const std::size_t end = std::min(path.find('/', at), path.size());
         if (path.substr(at, end - at) == "..") return false;
@@ -113,8 +119,9 @@ bool stays_below(std::string_view path)
 /// Extensions that change geometry in ways we do not read make a file unreadable; those of materials just travel along.
 bool known_extension(std::string_view name)
 {
-    constexpr std::array<std::string_view, 8> travelling = {"KHR_materials_",   "KHR_texture_",   "EXT_texture_",   "MSFT_texture_",
-                                                            "EXT_materials_",   "ADOBE_materials_", "KHR_lights_",   "KHR_xmp"};
+    constexpr std::array<std::string_view, 8> travelling = {"KHR_materials_", "KHR_texture_",   "EXT_texture_",
+                                                            "MSFT_texture_",  "EXT_materials_", "ADOBE_materials_",
+                                                            "KHR_lights_",    "KHR_xmp"};
     if (name == "KHR_mesh_quantization") return true;
     for (std::string_view start : travelling)
         if (name.substr(0, start.size()) == start) return true;
@@ -124,16 +131,19 @@ bool known_extension(std::string_view name)
 Status check_header(const GltfDocument& document)
 {
     MESHREEL_TRY(const std::string version, document.json().member("asset").member("version").text_or(""));
-    if (version.empty()) return document.json().member("asset").member("version").wrong("is missing: this is no glTF 2 file");
+    if (version.empty())
+        return document.json().member("asset").member("version").wrong("is missing: this is no glTF 2 file");
     if (version != "2" && version.compare(0, 2, "2.") != 0)
         return unsupported(concat("glTF version ", version, "; only 2 is known"), "asset.version");
     const Json required = document.json().member("extensionsRequired");
     for (std::size_t i = 0; i < required.size(); ++i) {
         MESHREEL_TRY(const std::string name, required.element(i).text_or(""));
-        if (!known_extension(name)) return unsupported(concat("the extension ", name, " is required, but not known"), required.element(i).path);
+        if (!known_extension(name))
+            return unsupported(concat("the extension ", name, " is required, but not known"), required.element(i).path);
     }
-    for (const char* list : {"accessors", "animations", "bufferViews", "buffers", "images", "materials", "meshes", "nodes",
-                             "samplers", "scenes", "skins", "textures", "extensionsUsed", "extensionsRequired"}) {
+    for (const char* list :
+         {"accessors", "animations", "bufferViews", "buffers", "images", "materials", "meshes", "nodes", "samplers",
+          "scenes", "skins", "textures", "extensionsUsed", "extensionsRequired"}) {
         const Json member = document.json().member(list);
         if (member && !member.value->is_array()) return member.wrong("is not an array");
     }
@@ -174,12 +184,14 @@ Result<Bytes> read_uri(const std::string& uri, const std::string& beside, const 
     if (uri.compare(0, 5, "data:") == 0) {
         const std::size_t comma = uri.find(',');
         if (comma == uri.npos) return field.wrong("is a data URI without data");
-        const std::string_view header = std::string_view(uri).substr(0, comma), body = std::string_view(uri).substr(comma + 1);
+        const std::string_view header = std::string_view(uri).substr(0, comma),
+                               body = std::string_view(uri).substr(comma + 1);
         if (header.find(";base64") != header.npos) return decode_base64(body, field);
         const std::string plain = percent_decoded(body);
         return Bytes(plain.begin(), plain.end());
     }
-    if (uri.find("://") != uri.npos) return unsupported("is remote; only data URIs and files beside this one are read", field.path);
+    if (uri.find("://") != uri.npos)
+        return unsupported("is remote; only data URIs and files beside this one are read", field.path);
     const std::string relative = percent_decoded(uri);
     if (!stays_below(relative)) return field.wrong("leads out of the file's folder");
     const std::size_t slash = beside.rfind('/');
@@ -192,7 +204,8 @@ Result<GltfDocument> read_gltf_document(const std::string& path, const DecodeLim
     document.path = path;
     document.limits = limits;
     MESHREEL_TRY(document.file, read_file(path, limits));
-    document.budget = std::make_unique<Budget>(Budget{limits.max_memory - std::min<std::uint64_t>(limits.max_memory, document.file.size())});
+    document.budget = std::make_unique<Budget>(
+        Budget{limits.max_memory - std::min<std::uint64_t>(limits.max_memory, document.file.size())});
     GlbChunks chunks;
     if (document.file.size() >= 4 && u32_at(document.file, 0) == glb_magic) {
         MESHREEL_TRY(chunks, read_chunks(document.file));

@@ -22,7 +22,7 @@ struct GltfDocument {
     std::unique_ptr<const nlohmann::json> root;
     std::string path;
     Bytes file;
-    std::vector<Bytes> loaded;     ///< buffers from data URIs and neighbouring files; empty where the file itself holds it
+    std::vector<Bytes> loaded; ///< buffers from data URIs and neighbouring files; empty where the file itself holds it
     std::vector<ByteView> buffers; ///< one a buffer, exactly its byteLength
     DecodeLimits limits;
     std::unique_ptr<Budget> budget; ///< spent by whoever reads, also from a constant document
@@ -42,7 +42,8 @@ Result<GltfDocument> read_gltf_document(const std::string& path, const DecodeLim
 
 /// The bytes that a URI stands for: a data URI, or a file in the folder of `beside` or below it. `field` for errors.
 /// @fails bad_input: not base64, or a path that leaves the folder; unsupported: a remote URI; io: cannot be read.
-Result<Bytes> read_uri(const std::string& uri, const std::string& beside, const DecodeLimits& limits, const Json& field);
+Result<Bytes> read_uri(const std::string& uri, const std::string& beside, const DecodeLimits& limits,
+                       const Json& field);
 
 /// The bytes of bufferViews[i].
 Result<ByteView> buffer_view(const GltfDocument& document, std::uint64_t i);

@@ -12,7 +12,8 @@ namespace meshreel::io {
 namespace {
 
 /// Vertex numbers in drawing order: the indices, or 0, 1, 2, ...
-Result<std::vector<std::uint32_t>> corner_list(const GltfDocument& document, const Json& primitive, std::uint32_t vertex_count)
+Result<std::vector<std::uint32_t>> corner_list(const GltfDocument& document, const Json& primitive,
+                                               std::uint32_t vertex_count)
 {
     const Json field = primitive.member("indices");
     std::vector<std::uint32_t> corners;
@@ -26,7 +27,8 @@ Result<std::vector<std::uint32_t>> corner_list(const GltfDocument& document, con
     MESHREEL_TRY(corners, integers(found, 1));
     for (std::size_t c = 0; c < corners.size(); ++c)
         if (corners[c] >= vertex_count)
-            return found.where.wrong(concat("index ", c, " is ", corners[c], ", beyond the ", vertex_count, " vertices"));
+            return found.where.wrong(
+                concat("index ", c, " is ", corners[c], ", beyond the ", vertex_count, " vertices"));
     return corners;
 }
 
@@ -35,16 +37,19 @@ std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& corners, st
 {
     std::vector<Triangle> triangles;
     if (mode == 4)
-        for (std::size_t c = 0; c + 2 < corners.size(); c += 3) triangles.push_back({corners[c], corners[c + 1], corners[c + 2]});
+        for (std::size_t c = 0; c + 2 < corners.size(); c += 3)
+            triangles.push_back({corners[c], corners[c + 1], corners[c + 2]});
     if (mode == 5)
         for (std::size_t c = 0; c + 2 < corners.size(); ++c)
             triangles.push_back({corners[c], corners[c + 1 + c % 2], corners[c + 2 - c % 2]});
     if (mode == 6)
-        for (std::size_t c = 1; c + 1 < corners.size(); ++c) triangles.push_back({corners[c], corners[c + 1], corners[0]});
+        for (std::size_t c = 1; c + 1 < corners.size(); ++c)
+            triangles.push_back({corners[c], corners[c + 1], corners[0]});
     return triangles;
 }
 
-Result<std::vector<Triangle>> read_triangles(const GltfDocument& document, const Json& primitive, std::uint32_t vertex_count)
+Result<std::vector<Triangle>> read_triangles(const GltfDocument& document, const Json& primitive,
+                                             std::uint32_t vertex_count)
 {
     MESHREEL_TRY(const std::uint64_t mode, primitive.member("mode").integer_or(4, 7));
     MESHREEL_TRY(const std::vector<std::uint32_t> corners, corner_list(document, primitive, vertex_count));
@@ -82,7 +87,8 @@ Status unit_sums(GltfVertices& vertices)
         const std::span<double> weights(&vertices.weights[v * vertices.influences], vertices.influences);
         double sum = 0;
         for (double weight : weights) {
-            if (weight < 0) return vertices.primitive.member("attributes").wrong(concat("vertex ", v, " has a negative weight"));
+            if (weight < 0)
+                return vertices.primitive.member("attributes").wrong(concat("vertex ", v, " has a negative weight"));
             sum += weight;
         }
         if (sum > 0)
@@ -109,7 +115,8 @@ Result<GltfVertices> read_vertices(const GltfDocument& document, const Json& pri
     GltfVertices vertices;
     vertices.primitive = primitive;
     MESHREEL_TRY(const Accessor positions, accessor(document, primitive.member("attributes").member("POSITION")));
-    MESHREEL_CHECK(within(positions.count, std::min<std::uint64_t>(document.limits.max_vertices, gltf_none - 1), positions.where.path));
+    MESHREEL_CHECK(within(positions.count, std::min<std::uint64_t>(document.limits.max_vertices, gltf_none - 1),
+                          positions.where.path));
     vertices.count = static_cast<std::uint32_t>(positions.count);
     MESHREEL_TRY(vertices.rest, numbers(positions, 3));
     const Json targets = primitive.member("targets");
@@ -118,7 +125,8 @@ Result<GltfVertices> read_vertices(const GltfDocument& document, const Json& pri
         const Json field = targets.element(t).member("POSITION");
         if (!field) continue;
         MESHREEL_TRY(const Accessor offsets, accessor(document, field));
-        if (offsets.count != positions.count) return field.wrong(concat(offsets.count, " offsets for ", positions.count, " vertices"));
+        if (offsets.count != positions.count)
+            return field.wrong(concat(offsets.count, " offsets for ", positions.count, " vertices"));
         if (offsets.data == nullptr && offsets.sparse_count == 0) continue;
         MESHREEL_TRY(vertices.targets[t], numbers(offsets, 3));
     }
@@ -130,7 +138,9 @@ Result<GltfVertices> read_vertices(const GltfDocument& document, const Json& pri
 Result<std::size_t> vertex_set(const GltfDocument& document, const Json& primitive, GltfMesh& mesh)
 {
     const nlohmann::json nothing;
-    const auto part = [&](const Json& of, const char* name) { return of.member(name) ? *of.member(name).value : nothing; };
+    const auto part = [&](const Json& of, const char* name) {
+        return of.member(name) ? *of.member(name).value : nothing;
+    };
     for (std::size_t s = 0; s < mesh.vertices.size(); ++s)
         if (part(mesh.vertices[s].primitive, "attributes") == part(primitive, "attributes") &&
             part(mesh.vertices[s].primitive, "targets") == part(primitive, "targets"))
@@ -142,7 +152,8 @@ Result<std::size_t> vertex_set(const GltfDocument& document, const Json& primiti
 
 } // namespace
 
-Result<GltfMesh> read_gltf_mesh(const GltfDocument& document, std::size_t number, const std::function<void(std::string)>& warn)
+Result<GltfMesh> read_gltf_mesh(const GltfDocument& document, std::size_t number,
+                                const std::function<void(std::string)>& warn)
 {
     const Json json = document.item("meshes", number), primitives = json.member("primitives");
     GltfMesh mesh;
@@ -151,14 +162,16 @@ Result<GltfMesh> read_gltf_mesh(const GltfDocument& document, std::size_t number
         const Json primitive = primitives.element(p);
         MESHREEL_TRY(const std::uint64_t mode, primitive.member("mode").integer_or(4, 7));
         if (mode < 4) {
-            if (warn) warn(concat(primitive.path, ": is made of ", mode == 0 ? "points" : "lines", ", which are left out"));
+            if (warn)
+                warn(concat(primitive.path, ": is made of ", mode == 0 ? "points" : "lines", ", which are left out"));
             continue;
         }
         GltfTriangles part;
         part.primitive = p;
         MESHREEL_TRY(part.vertices, vertex_set(document, primitive, mesh));
         if (primitive.member("material")) {
-            MESHREEL_TRY(const std::uint64_t material, primitive.member("material").integer(document.count("materials")));
+            MESHREEL_TRY(const std::uint64_t material,
+                         primitive.member("material").integer(document.count("materials")));
             part.material = static_cast<std::uint32_t>(material);
         }
         MESHREEL_TRY(part.triangles, read_triangles(document, primitive, mesh.vertices[part.vertices].count));

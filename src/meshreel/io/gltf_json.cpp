@@ -93,7 +93,8 @@ Result<std::string> Json::text_or(const std::string& fallback) const
 Status Json::numbers(std::span<double> into) const
 {
     if (value == nullptr) return Ok{};
-    if (!value->is_array() || value->size() != into.size()) return wrong(concat("is not an array of ", into.size(), " numbers"));
+    if (!value->is_array() || value->size() != into.size())
+        return wrong(concat("is not an array of ", into.size(), " numbers"));
     for (std::size_t i = 0; i < into.size(); ++i) {
         if (!(*value)[i].is_number()) return element(i).wrong("is not a number");
         into[i] = (*value)[i].get<double>();

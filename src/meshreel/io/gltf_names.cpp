@@ -27,7 +27,8 @@ std::string escaped(const std::string& name)
     for (char c : name) {
         const auto byte = static_cast<unsigned char>(c);
         const bool special = c == '%' || c == '/' || c == '#' || c == '@' || byte < 32;
-        plain += special ? concat("%", std::string(1, digits[byte / 16]), std::string(1, digits[byte % 16])) : std::string(1, c);
+        plain += special ? concat("%", std::string(1, digits[byte / 16]), std::string(1, digits[byte % 16]))
+                         : std::string(1, c);
     }
     return plain;
 }
@@ -42,7 +43,8 @@ std::string unescaped(std::string_view name)
 {
     std::string plain;
     for (std::size_t i = 0; i < name.size(); ++i) {
-        const bool escape = name[i] == '%' && i + 2 < name.size() && hex_digit(name[i + 1]) >= 0 && hex_digit(name[i + 2]) >= 0;
+        const bool escape =
+            name[i] == '%' && i + 2 < name.size() && hex_digit(name[i + 1]) >= 0 && hex_digit(name[i + 2]) >= 0;
         plain += escape ? static_cast<char>(hex_digit(name[i + 1]) * 16 + hex_digit(name[i + 2])) : name[i];
         if (escape) i += 2;
     }
@@ -88,13 +90,14 @@ std::optional<std::string> attribute_semantic(const std::string& name)
 
 std::string variant_name(const Attribute& attribute)
 {
-    return concat(attribute.name, "|", scalar_names[static_cast<std::size_t>(attribute.type)], attribute.normalized ? "nx" : "x",
-                  static_cast<unsigned>(attribute.components));
+    return concat(attribute.name, "|", scalar_names[static_cast<std::size_t>(attribute.type)],
+                  attribute.normalized ? "nx" : "x", static_cast<unsigned>(attribute.components));
 }
 
 std::string GltfGroup::name() const
 {
-    return concat(escaped(node), instance > 1 ? concat("@", instance) : std::string(), "/", escaped(mesh), "#", primitive);
+    return concat(escaped(node), instance > 1 ? concat("@", instance) : std::string(), "/", escaped(mesh), "#",
+                  primitive);
 }
 
 GltfGroup parse_group(const std::string& name)
@@ -106,7 +109,8 @@ GltfGroup parse_group(const std::string& name)
     const std::size_t at = node.find('@');
     const auto instance = at == node.npos ? std::optional<std::size_t>(1) : small_number(node.substr(at + 1));
     if (!instance) return {name, 1, name, 0};
-    return {unescaped(node.substr(0, at)), *instance, unescaped(std::string_view(name).substr(slash + 1, hash - slash - 1)), *primitive};
+    return {unescaped(node.substr(0, at)), *instance,
+            unescaped(std::string_view(name).substr(slash + 1, hash - slash - 1)), *primitive};
 }
 
 } // namespace meshreel::io

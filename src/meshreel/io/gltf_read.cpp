@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "meshreel/base/text.h"
+#include "meshreel/io/frames.h"
 #include "meshreel/io/gltf.h"
 #include "meshreel/io/gltf_appearance.h"
 
@@ -25,7 +26,8 @@ Result<std::optional<std::size_t>> choose_clip(const GltfDocument& document, con
 {
     const std::size_t count = document.count("animations");
     if (options.clip.empty()) {
-        if (count > 1 && options.warn) options.warn(concat("has ", count, " clips: ", clip_list(document), "; the first is taken"));
+        if (count > 1 && options.warn)
+            options.warn(concat("has ", count, " clips: ", clip_list(document), "; the first is taken"));
         return count == 0 ? std::nullopt : std::optional<std::size_t>(0);
     }
     for (std::size_t a = 0; a < count; ++a) {
@@ -35,16 +37,21 @@ Result<std::optional<std::size_t>> choose_clip(const GltfDocument& document, con
     for (std::size_t a = 0; a < count; ++a)
         if (std::to_string(a) == options.clip) return std::optional(a);
     return Error{ErrorCode::usage,
-                 concat("has no clip \"", options.clip, "\"", count == 0 ? "; it has none at all" : "; there are: ", clip_list(document)),
-                 "animations", {}, {}};
+                 concat("has no clip \"", options.clip, "\"",
+                        count == 0 ? "; it has none at all" : "; there are: ", clip_list(document)),
+                 "animations",
+                 {},
+                 {}};
 }
 
 void tell_left_out(const GltfDocument& document, const GltfBody& body, const LoadOptions& options)
 {
     if (!options.warn) return;
-    if (document.count("scenes") > 1) options.warn(concat("has ", document.count("scenes"), " scenes; the default one is taken"));
+    if (document.count("scenes") > 1)
+        options.warn(concat("has ", document.count("scenes"), " scenes; the default one is taken"));
     if (document.json().member("cameras")) options.warn("has cameras, which are left out");
-    if (document.json().member("extensions").member("KHR_lights_punctual")) options.warn("has lights, which are left out");
+    if (document.json().member("extensions").member("KHR_lights_punctual"))
+        options.warn("has lights, which are left out");
     for (const GltfMesh& mesh : body.meshes)
         for (const GltfVertices& vertices : mesh.vertices) {
             const Json target = vertices.primitive.member("targets").element(0);
@@ -53,20 +60,9 @@ void tell_left_out(const GltfDocument& document, const GltfBody& body, const Loa
         }
 }
 
-/// The frames asked for, of the clip's.
-Result<std::vector<double>> chosen_times(const std::vector<double>& times, const FrameRange& range)
-{
-    if (range.step == 0) return Error{ErrorCode::usage, "the step between frames is 0", "frames", {}, {}};
-    std::vector<double> chosen;
-    for (std::uint64_t f = range.first; f < times.size() && f <= range.last; f += std::min<std::uint64_t>(range.step, times.size()))
-        chosen.push_back(times[f]);
-    if (chosen.empty())
-        return Error{ErrorCode::usage, concat("no frame is left of the clip's ", times.size()), "frames", {}, {}};
-    return chosen;
-}
-
 Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
 {
+    MESHREEL_CHECK(check_fps(options));
     MESHREEL_TRY(const GltfScene scene, read_gltf_scene(document));
     MESHREEL_TRY(const std::optional<std::size_t> number, choose_clip(document, options));
     GltfClip clip;
@@ -78,21 +74,23 @@ Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
     tell_left_out(document, body, options);
 
     Animation animation;
-    MESHREEL_TRY(animation.times_s, chosen_times(times.times_s, options.frames));
+    MESHREEL_TRY(const Selection chosen, select_frames(options.frames, times.times_s.size()));
+    for (std::uint64_t f = 0; f < chosen.count; ++f) animation.times_s.push_back(times.times_s[chosen[f]]);
     animation.vertex_count = body.vertex_count;
     animation.meta.name = clip.name;
     animation.meta.up = Axis::y;
     animation.meta.metres_per_unit = 1;
-    animation.meta.fps = times.fps / static_cast<double>(options.frames.step);
+    animation.meta.fps = times.fps / static_cast<double>(chosen.step);
     MESHREEL_CHECK(read_gltf_appearance(document, scene, body, animation, options.warn));
-    MESHREEL_CHECK(within(document.limits, animation.vertex_count, animation.triangles.size(), animation.frame_count()));
-    MESHREEL_CHECK(document.budget->take(animation.frame_count() * animation.vertex_count * 12, document.json().member("animations")));
+    MESHREEL_CHECK(
+        within(document.limits, animation.vertex_count, animation.triangles.size(), animation.frame_count()));
+    MESHREEL_CHECK(document.budget->take(animation.frame_count() * animation.vertex_count * 12,
+                                         document.json().member("animations")));
     animation.positions.resize(animation.frame_count() * animation.vertex_count * 3);
     for (std::size_t f = 0; f < animation.frame_count(); ++f) {
         report(options.progress, "baking", static_cast<double>(f) / static_cast<double>(animation.frame_count()));
         bake(scene, body, pose_at(scene, &clip, animation.times_s[f]), animation.frame(f));
     }
-    MESHREEL_CHECK(validate(animation));
     return animation;
 }
 

@@ -88,7 +88,8 @@ Status read_hierarchy(const GltfDocument& document, GltfScene& scene)
 Status mark_visible(const GltfDocument& document, GltfScene& scene)
 {
     const std::uint64_t scenes = document.count("scenes");
-    MESHREEL_TRY(const std::uint64_t shown, document.json().member("scene").integer_or(0, std::max<std::uint64_t>(scenes, 1)));
+    MESHREEL_TRY(const std::uint64_t shown,
+                 document.json().member("scene").integer_or(0, std::max<std::uint64_t>(scenes, 1)));
     if (scenes == 0)
         for (GltfNode& node : scene.nodes) node.visible = true;
     const Json roots = document.item("scenes", shown).member("nodes");
@@ -97,7 +98,8 @@ Status mark_visible(const GltfDocument& document, GltfScene& scene)
         scene.nodes[root].visible = true;
     }
     for (std::uint32_t n : scene.order)
-        if (scene.nodes[n].parent != gltf_none && scene.nodes[scene.nodes[n].parent].visible) scene.nodes[n].visible = true;
+        if (scene.nodes[n].parent != gltf_none && scene.nodes[scene.nodes[n].parent].visible)
+            scene.nodes[n].visible = true;
     return Ok{};
 }
 
@@ -147,7 +149,8 @@ Affine operator*(const Affine& first, const Affine& second)
 
 double Affine::determinant() const
 {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+           m[2] * (m[4] * m[9] - m[5] * m[8]);
 }
 
 Affine Trs::matrix() const
@@ -156,10 +159,12 @@ Affine Trs::matrix() const
     const double square = x * x + y * y + z * z + w * w;
     const double s = square > 0 ? 2 / square : 0; // normalises on the way
     Affine affine;
-    affine.m = {(1 - s * (y * y + z * z)) * scale[0], s * (x * y - z * w) * scale[1],       s * (x * z + y * w) * scale[2],
-                translation[0],                       s * (x * y + z * w) * scale[0],       (1 - s * (x * x + z * z)) * scale[1],
-                s * (y * z - x * w) * scale[2],       translation[1],                       s * (x * z - y * w) * scale[0],
-                s * (y * z + x * w) * scale[1],       (1 - s * (x * x + y * y)) * scale[2], translation[2]};
+    affine.m = {(1 - s * (y * y + z * z)) * scale[0], s * (x * y - z * w) * scale[1],
+                s * (x * z + y * w) * scale[2],       translation[0],
+                s * (x * y + z * w) * scale[0],       (1 - s * (x * x + z * z)) * scale[1],
+                s * (y * z - x * w) * scale[2],       translation[1],
+                s * (x * z - y * w) * scale[0],       s * (y * z + x * w) * scale[1],
+                (1 - s * (x * x + y * y)) * scale[2], translation[2]};
     return affine;
 }
 

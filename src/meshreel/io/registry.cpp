@@ -4,6 +4,7 @@
 #include <array>
 
 #include "meshreel/base/text.h"
+#include "meshreel/io/gltf.h"
 #include "meshreel/io/io.h"
 #include "meshreel/io/obj.h"
 #include "meshreel/io/point_cache.h"
@@ -16,10 +17,13 @@ constexpr std::string_view obj_extensions[] = {"obj"};
 constexpr std::string_view pc2_extensions[] = {"pc2"};
 constexpr std::string_view mdd_extensions[] = {"mdd"};
 
+constexpr std::string_view gltf_extensions[] = {"glb", "gltf"};
+
 constexpr Format table[] = {
     {"obj", obj_extensions, "Wavefront OBJ, one file a frame", load_obj, save_obj},
     {"pc2", pc2_extensions, "PointCache2, positions of a mesh, evenly spaced", load_pc2, save_pc2},
     {"mdd", mdd_extensions, "MDD, positions of a mesh, with times", load_mdd, save_mdd},
+    {"gltf", gltf_extensions, "glTF 2.0 and GLB, skins and morph targets baked", load_gltf, nullptr},
 };
 
 char lower(char c)
