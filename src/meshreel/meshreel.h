@@ -7,42 +7,25 @@
 #include <vector>
 
 #include "meshreel/base/limits.h"
+#include "meshreel/base/order.h"
 #include "meshreel/base/parallel.h"
 #include "meshreel/base/progress.h"
 #include "meshreel/base/result.h"
+#include "meshreel/codecs/settings.h"
 #include "meshreel/io/io.h"
 #include "meshreel/mesh/animation.h"
 #include "meshreel/metrics/metric.h"
 
 namespace meshreel {
 
-/// Whether the decoded vertices and triangles stand in the original order.
-enum class Order : std::uint8_t {
-    keep, ///< as they were (default)
-    free, ///< in the codec's order: saves up to log2 V bits a vertex
-    base  ///< as in a base mesh that the reader has too: no connectivity and no order in the file
-};
-
-/// How the PCA basis is coded (thesis 8.1.2, 8.4).
-enum class BasisCoding : std::uint8_t {
-    raw,     ///< float32 values
-    uniform, ///< one step for all components, no prediction (Amjoun)
-    cobra    ///< predicted in time, non-uniform steps (thesis 8.4, 8.5)
-};
-
-/// How residuals become bits.
-enum class Entropy : std::uint8_t {
-    huffman, ///< a code table a component, as in the thesis
-    range    ///< adaptive binary contexts and a range coder
-};
-
 /// The quality asked for: at most one of the targets, or bases and step by hand. Nothing set: max_error = 0.05 %.
 struct Quality {
     std::optional<double> kg;                 ///< KG error in percent, > 0 (thesis (5.2))
     std::optional<double> max_error;          ///< largest distance of any vertex in any frame, model units, > 0
     std::optional<double> max_error_relative; ///< the same in percent of the first frame's body diagonal, > 0
-    std::optional<std::uint32_t> bases;       ///< K, the number of eigentrajectories, 1 .. 3F
-    std::optional<double> step;               ///< quantisation step of the coefficients, as a fraction of the body diagonal, > 0
+    std::optional<std::uint32_t> bases;       ///< K, the number of eigentrajectories, > 0; none: as the step suggests
+    std::optional<double> step;               ///< quantisation step of the coefficients as a fraction of the body
+                                              ///< diagonal, > 0; none: as the number of bases suggests
 };
 
 struct EncodeOptions {
@@ -58,12 +41,12 @@ struct EncodeOptions {
 
 /// What an encoding reached, measured on the decoded file.
 struct Encoded {
-    Bytes bytes;              ///< the whole .reel file
-    double bpfv = 0.0;        ///< bits of the whole file over F V (9.1)
-    double kg = 0.0;          ///< KG error, percent
-    double max_error = 0.0;   ///< model units
-    std::uint32_t bases = 0;  ///< K
-    double step = 0.0;        ///< coefficient step, fraction of the body diagonal
+    Bytes bytes;             ///< the whole .reel file
+    double bpfv = 0.0;       ///< bits of the whole file over F V (9.1)
+    double kg = 0.0;         ///< KG error, percent
+    double max_error = 0.0;  ///< model units
+    std::uint32_t bases = 0; ///< K
+    double step = 0.0;       ///< coefficient step, fraction of the body diagonal
 };
 
 struct DecodeOptions {
@@ -81,9 +64,12 @@ Result<Encoded> encode(const Animation& animation, const EncodeOptions& options 
 /// Rebuilds an animation. Any bytes may be given. @fails bad_input, unsupported, naming byte and field.
 Result<Animation> decode(ByteView reel, const DecodeOptions& options = {});
 
+/// The animation numbered as Order::free would give it back: to compare a decoded file with its original.
+Animation in_free_order(const Animation& animation, Threads threads = {});
+
 /// What a .reel file says of itself, without decoding the positions.
 struct Info {
-    std::string codec;
+    std::string codec, encoder; ///< encoder: program and version that wrote the file
     std::uint16_t version_major = 0, version_minor = 0;
     std::uint64_t vertices = 0, coded_vertices = 0, triangles = 0, frames = 0; ///< coded: after welding
     Order order = Order::keep;

@@ -7,18 +7,12 @@
 #include <vector>
 
 #include "meshreel/base/limits.h"
+#include "meshreel/base/order.h"
 #include "meshreel/base/result.h"
 #include "meshreel/base/views.h"
 #include "meshreel/connectivity/surface.h"
 
 namespace meshreel::connectivity {
-
-/// What becomes of the numbering of vertices and triangles.
-enum class Order : std::uint8_t {
-    keep = 0, ///< vertices, triangles and each triangle's first corner come back as they were
-    free = 1, ///< numbered as the traversal meets them; orientation and multiplicity are kept
-    base = 2, ///< the decoder is given the same triangle list: only the welding is stored
-};
 
 /// V vertices, of which those with equal trajectories are one vertex of the surface.
 struct Input {

@@ -1,0 +1,40 @@
+/// What every codec of the registry can be asked for.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "meshreel/base/parallel.h"
+
+namespace meshreel {
+
+/// How the PCA basis is coded (thesis 8.1.2, 8.4).
+enum class BasisCoding : std::uint8_t {
+    raw,     ///< float32 values
+    uniform, ///< one step for all components, no prediction (Amjoun)
+    cobra    ///< predicted in time, non-uniform steps (thesis 8.4, 8.5)
+};
+
+/// How residuals become bits.
+enum class Entropy : std::uint8_t {
+    huffman, ///< a code table a component, as in the thesis
+    range    ///< adaptive binary contexts and a range coder
+};
+
+namespace codecs {
+
+/// One point on a codec's rate-distortion surface.
+struct Settings {
+    double step = 0.0;                       ///< D, quantisation step of the coefficients, model units; 0: as coarse as
+                                             ///< the last of the bases allows
+    std::optional<std::uint32_t> bases = {}; ///< K; none: the components with s_k / sqrt(W) >= truncation * D
+    double truncation = 0.65;                ///< tau, see bases; > 0
+    double basis_ratio = 1.0;                ///< beta: Q_m = beta D / sqrt(W), see basis_law; > 0
+    BasisCoding basis = BasisCoding::cobra;
+    Entropy entropy = Entropy::range;
+    Threads threads = {};
+};
+
+} // namespace codecs
+} // namespace meshreel
