@@ -29,7 +29,7 @@ Matrix<float> frames_of_rank(std::size_t rank, std::size_t F, std::size_t N)
 
 double largest_rebuilding_error(const Matrix<float>& frames, const linalg::Pca& pca)
 {
-    const Matrix<double> C = linalg::project(frames.view(), pca.mean, pca.basis.view(), {});
+    const Matrix<double> C = linalg::project(frames.view(), pca.mean, pca.basis.view(), {}).C;
     double largest = 0;
     for (std::size_t f = 0; f < frames.rows; ++f)
         for (std::size_t i = 0; i < frames.cols; ++i) {

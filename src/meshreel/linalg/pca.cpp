@@ -176,20 +176,44 @@ Pca pca_of_trajectories(MatrixView<const float> frames, std::size_t max_componen
     return pca;
 }
 
-Matrix<double> project(MatrixView<const float> frames, std::span<const double> mean, MatrixView<const double> basis,
-                       Threads threads)
+Projection project(MatrixView<const float> frames, std::span<const double> mean, MatrixView<const double> basis,
+                   Threads threads)
 {
     const auto K = static_cast<Index>(basis.rows), n = static_cast<Index>(basis.cols);
-    const std::size_t N = vertex_count(frames);
+    const std::size_t N = vertex_count(frames), tasks = (N + block - 1) / block;
     const Eigen::Map<const RowMajor> B(basis.data, K, n);
     const Eigen::LDLT<Columns> normal(B * B.transpose());
-    Matrix<double> coefficients(N, basis.rows);
-    parallel_for((N + block - 1) / block, threads, [&](std::size_t task) {
+    Projection result{Matrix<double>(N, basis.rows), 0.0};
+    std::vector<double> errors(tasks);
+    parallel_for(tasks, threads, [&](std::size_t task) {
         const std::size_t first = task * block, count = std::min(block, N - first);
-        Eigen::Map<RowMajor> C(coefficients.values.data() + first * basis.rows, static_cast<Index>(count), K);
-        C = normal.solve(B * trajectories(frames, mean, first, count)).transpose();
+        const Columns X = trajectories(frames, mean, first, count);
+        errors[task] = X.squaredNorm();
+        if (K == 0) return;
+        const Columns inner = B * X, C = normal.solve(inner);
+        errors[task] -= inner.cwiseProduct(C).sum();
+        Eigen::Map<RowMajor>(result.C.values.data() + first * basis.rows, static_cast<Index>(count), K) = C.transpose();
     });
-    return coefficients;
+    for (double error : errors) result.squared_error += error;
+    return result;
+}
+
+double squared_distance(MatrixView<const double> C, MatrixView<const double> D, MatrixView<const double> basis)
+{
+    const auto K = static_cast<Index>(basis.rows), N = static_cast<Index>(C.rows);
+    if (K == 0) return 0.0;
+    const Eigen::Map<const RowMajor> B(basis.data, K, static_cast<Index>(basis.cols));
+    const RowMajor difference = Eigen::Map<const RowMajor>(C.data, N, K) - Eigen::Map<const RowMajor>(D.data, N, K);
+    return ((B * B.transpose()).cwiseProduct(difference.transpose() * difference)).sum();
+}
+
+std::vector<double> mean_absolute(MatrixView<const double> C)
+{
+    std::vector<double> mean(C.cols, 0.0);
+    for (std::size_t v = 0; v < C.rows; ++v)
+        for (std::size_t k = 0; k < C.cols; ++k) mean[k] += std::abs(C(v, k));
+    for (double& value : mean) value /= static_cast<double>(C.rows);
+    return mean;
 }
 
 } // namespace meshreel::linalg

@@ -26,10 +26,22 @@ struct Pca {
 /// @cost O(N n d + d^2 K), d = min(n, N); memory O(d^2 + n K) beside the frames.  @source thesis 8.1.1
 Pca pca_of_trajectories(MatrixView<const float> frames, std::size_t max_components, Threads threads);
 
-/// Coefficients of every trajectory in a basis that need not be orthonormal: least squares, C = (B B^T)^-1 B (X - m).
-/// mean [n], basis [K x n]; returns C [N x K].
+/// Trajectories in the terms of a basis.
+struct Projection {
+    Matrix<double> C;           ///< coefficients, [N x K]
+    double squared_error = 0.0; ///< what the basis cannot express, summed over all trajectories
+};
+
+/// Coefficients of every trajectory in a basis that need not be orthonormal: least squares, c = (B B^T)^-1 B (t - m).
+/// mean [n], basis [K x n]. The same result for any number of threads.
 /// @cost O(N n K).
-Matrix<double> project(MatrixView<const float> frames, std::span<const double> mean, MatrixView<const double> basis,
-                       Threads threads);
+Projection project(MatrixView<const float> frames, std::span<const double> mean, MatrixView<const double> basis,
+                   Threads threads);
+
+/// Sum over all trajectories of |B^T (c - d)|^2: what replacing coefficients C by D [N x K] changes.
+double squared_distance(MatrixView<const double> C, MatrixView<const double> D, MatrixView<const double> basis);
+
+/// The mean of |c_k| over all trajectories, [K].  @source thesis (8.24)
+std::vector<double> mean_absolute(MatrixView<const double> C);
 
 } // namespace meshreel::linalg
