@@ -1,0 +1,106 @@
+/// The PCA basis as bits: raw, uniformly quantised, or Cobra (thesis 8.4, 8.5). One walk for both directions.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meshreel/base/exact.h"
+#include "meshreel/base/views.h"
+#include "meshreel/codecs/contexts.h"
+#include "meshreel/codecs/settings.h"
+#include "meshreel/coding/quantiser.h"
+#include "meshreel/predict/motion.h"
+
+namespace meshreel::codecs {
+
+/// How the steps of the basis follow from a few numbers, so that both sides know them. Q_i = k i^q + a.
+struct BasisLaw {
+    BasisCoding coding = BasisCoding::cobra;
+    double mean_step = 1.0; ///< Q_m, model units (8.29)
+    double k = 0.0;         ///< (8.26); 0 for uniform
+    double q = 0.0;         ///< exponent, a multiple of 2^-16 in [0, 64]
+    double a = 1.0;         ///< the shift of (8.28); for uniform the one step
+
+    /// Q_i, i = 1 .. K.  @source thesis (8.26)-(8.28)
+    double step(std::size_t i) const { return k * exact::power(static_cast<double>(i), q) + a; }
+};
+
+/// A basis and the mean that goes with it; what is coded, and afterwards what the decoder sees.
+struct Basis {
+    std::vector<double> mean; ///< m, [3F]
+    Matrix<double> rows;      ///< B, [K x 3F]
+};
+
+/// The steps for given data. mean_step: Q_m. mean_absolute: a_i of (8.24), [K], model units.
+/// @source thesis (8.25)-(8.29)
+BasisLaw basis_law(BasisCoding coding, double mean_step, std::span<const double> mean_absolute);
+
+/// The order of the predictor (1 .. 4) that leaves the cheapest residuals on trajectory t [3F].
+int best_motion_order(std::span<const double> t, coding::Quantiser quantiser);
+
+/// The rows of contexts that code_basis uses: three coordinates of the mean, three of the basis.
+constexpr std::uint32_t basis_context_rows = 6;
+
+/// Codes one coordinate v [F] of a trajectory; afterwards v holds what the decoder will see.
+/// @source thesis Algorithm 1
+template <class Coder>
+class SeriesWalk {
+public:
+    SeriesWalk(Coder& coder, ContextGrid grid, std::size_t frame_count)
+        : coder_(coder), grid_(grid), levels_(frame_count, 0)
+    {
+    }
+
+    /// Codes a trajectory t [3F], its three coordinates one after the other, in rows row .. row + 2.
+    void code(std::span<double> t, coding::Quantiser quantiser, int order, std::uint32_t row)
+    {
+        const std::size_t F = levels_.size();
+        std::fill(levels_.begin(), levels_.end(), 0);
+        for (std::uint32_t c = 0; c < 3; ++c) code_coordinate(t.subspan(c * F, F), quantiser, order, row + c);
+    }
+
+private:
+    void code_coordinate(std::span<double> v, coding::Quantiser quantiser, int order, std::uint32_t row)
+    {
+        for (std::size_t f = 0; f < v.size(); ++f) {
+            // DEVIATES (Algorithm 1): the first values are predicted by as many as are known, not stored whole
+            const double guess = predict::motion(v.data() + f, std::min(order, static_cast<int>(f)));
+            const std::int32_t wanted = Coder::writes ? quantiser.level(v[f] - guess) : 0;
+            levels_[f] = coder_.level(grid_.index(row, nearby(f)), wanted);
+            v[f] = guess + quantiser.value(levels_[f]);
+        }
+    }
+
+    /// Residuals of the two frames before, and of this frame in the coordinate before.
+    std::uint32_t nearby(std::size_t f) const
+    {
+        return 2 * magnitude(f > 0 ? levels_[f - 1] : 0) + magnitude(f > 1 ? levels_[f - 2] : 0) +
+               2 * magnitude(levels_[f]);
+    }
+
+    Coder& coder_;
+    ContextGrid grid_;
+    std::vector<std::int32_t> levels_;
+};
+
+/// Codes the mean and all K basis vectors by the law; afterwards `basis` holds what the decoder will see.
+/// Level contexts: basis_context_rows of the grid. Symbol context 0: the orders, alphabet predict::motion_orders.
+template <class Coder>
+void code_basis(Coder& coder, const BasisLaw& law, ContextGrid grid, Basis& basis)
+{
+    SeriesWalk<Coder> walk(coder, grid, basis.mean.size() / 3);
+    for (std::size_t i = 0; i <= basis.rows.rows; ++i) {
+        const std::span<double> t = i == 0 ? std::span<double>(basis.mean) : basis.rows.row(i - 1);
+        const coding::Quantiser quantiser{i == 0 ? law.mean_step : law.step(i)};
+        int order = 0;
+        if (law.coding == BasisCoding::cobra)
+            order = 1 + coder.symbol(0, Coder::writes ? best_motion_order(t, quantiser) - 1 : 0);
+        walk.code(t, quantiser, order, i == 0 ? 0 : 3);
+        if (ended(coder)) return;
+    }
+}
+
+} // namespace meshreel::codecs

@@ -1,0 +1,61 @@
+/// What a codec is: prepared once for a sequence, tried at many settings, decoded from its bits alone.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "meshreel/base/limits.h"
+#include "meshreel/base/views.h"
+#include "meshreel/codecs/settings.h"
+#include "meshreel/connectivity/surface.h"
+#include "meshreel/container/fields.h"
+
+namespace meshreel::codecs {
+
+/// What a codec sees of an animation: its surface, and positions in the surface's vertex order.
+struct Sequence {
+    const connectivity::Surface& surface;
+    MatrixView<const float> frames; ///< [F x 3W]
+};
+
+/// One encoding and what it cost.
+struct Trial {
+    Bytes payload;              ///< everything the decoder needs beside the surface
+    std::uint32_t bases = 0;    ///< K
+    double step = 0.0;          ///< D, model units
+    double squared_error = 0.0; ///< sum of squared differences over all coordinates, before rounding to float32
+};
+
+/// A codec at work on one sequence. The sequence must outlive it.
+class Encoder {
+public:
+    virtual ~Encoder() = default;
+
+    /// The same bytes for any number of threads.
+    virtual Trial encode(const Settings& settings) const = 0;
+};
+
+/// One row of the registry.
+struct Codec {
+    std::string_view name; ///< as in --codec, and in the file's header
+    std::string_view summary;
+
+    /// max_bases: no trial will use more components than these.
+    std::unique_ptr<Encoder> (*prepare)(const Sequence& sequence, std::size_t max_bases, Threads threads);
+
+    /// Fills frames [F x 3W] from a payload. Memory: the frames, and what the payload's header promises, within limits.
+    /// @fails bad_input, naming byte and field.
+    Status (*decode)(const container::Source& payload, const connectivity::Surface& surface, MatrixView<float> frames,
+                     const DecodeLimits& limits, Threads threads);
+};
+
+/// Every codec, in the order of the documentation.
+std::span<const Codec> all();
+
+/// The codec of that name, or null.
+const Codec* find(std::string_view name);
+
+} // namespace meshreel::codecs

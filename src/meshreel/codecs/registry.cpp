@@ -1,0 +1,23 @@
+/// The one table of codecs.
+// SPDX-License-Identifier: MIT
+#include <array>
+
+#include "meshreel/codecs/coddyac.h"
+#include "meshreel/codecs/codec.h"
+
+namespace meshreel::codecs {
+
+std::span<const Codec> all()
+{
+    static const std::array rows{coddyac()};
+    return rows;
+}
+
+const Codec* find(std::string_view name)
+{
+    for (const Codec& codec : all())
+        if (codec.name == name) return &codec;
+    return nullptr;
+}
+
+} // namespace meshreel::codecs

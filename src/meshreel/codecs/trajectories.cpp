@@ -1,0 +1,66 @@
+/// The matrix product of the decoder, in blocks of vertices that stay in cache.
+// SPDX-License-Identifier: MIT
+#include "meshreel/codecs/trajectories.h"
+
+#include <algorithm>
+
+namespace meshreel::codecs {
+
+namespace {
+
+constexpr std::size_t block = 128; // vertices
+
+// Wider registers change nothing in the result: each vertex sums its own products in the order of k, without fusing.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
+#define MESHREEL_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define MESHREEL_WIDE
+#endif
+
+/// sums[v] = m + sum_k b[k * stride] * Ct[k][v] for one row of the trajectories of a block.
+struct Row {
+    double mean;
+    const double* b;    ///< B[0][row]
+    std::size_t stride; ///< 3F
+    std::size_t K;
+};
+
+MESHREEL_WIDE void add_up(const Row& row, const double* __restrict Ct, double* __restrict sums)
+{
+    for (std::size_t v = 0; v < block; ++v) sums[v] = row.mean;
+    for (std::size_t k = 0; k < row.K; ++k) {
+        const double b = row.b[k * row.stride];
+        const double* __restrict c = Ct + k * block;
+        for (std::size_t v = 0; v < block; ++v) sums[v] += b * c[v]; // (8.2)
+    }
+}
+
+/// Ct [K x block]: coefficients of vertices first .. first + count - 1, component by component; the rest zero.
+std::vector<double> transposed(MatrixView<const double> C, std::size_t first, std::size_t count)
+{
+    std::vector<double> Ct(C.cols * block, 0.0);
+    for (std::size_t v = 0; v < count; ++v)
+        for (std::size_t k = 0; k < C.cols; ++k) Ct[k * block + v] = C(first + v, k);
+    return Ct;
+}
+
+} // namespace
+
+void rebuild(const Basis& basis, MatrixView<const double> C, MatrixView<float> frames, Threads threads)
+{
+    const std::size_t W = frames.cols / 3, F = frames.rows, K = basis.rows.rows;
+    parallel_for((W + block - 1) / block, threads, [&](std::size_t task) {
+        const std::size_t first = task * block, count = std::min(block, W - first);
+        const std::vector<double> Ct = transposed(C, first, count);
+        double sums[block];
+        for (std::size_t f = 0; f < F; ++f)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::size_t row = c * F + f;
+                add_up({basis.mean[row], basis.rows.values.data() + row, 3 * F, K}, Ct.data(), sums);
+                float* out = frames.row(f).data() + 3 * first + c;
+                for (std::size_t v = 0; v < count; ++v) out[3 * v] = static_cast<float>(sums[v]);
+            }
+    });
+}
+
+} // namespace meshreel::codecs
