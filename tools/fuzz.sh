@@ -23,5 +23,6 @@ run_one() {
     fi
 }
 export -f run_one
+[ -n "$(find build-fuzz/fuzz -maxdepth 1 -name "fuzz_*" -type f -perm -u+x)" ] || { echo "fuzz: there are no targets"; exit 1; }
 find build-fuzz/fuzz -maxdepth 1 -name 'fuzz_*' -type f -perm -u+x -print0 | sort -z |
     xargs -0 -r -P"$jobs" -I{} bash -c 'run_one "$1" "$2"' _ {} "$seconds"
