@@ -6,31 +6,10 @@
 
 #include <gmock/gmock.h>
 
-#include "meshreel/base/random.h"
+#include "tests/container/clip.h"
 
 namespace meshreel::container {
 namespace {
-
-/// A grid of n x n vertices, two triangles a cell.
-std::vector<Triangle> grid(std::uint32_t n)
-{
-    std::vector<Triangle> triangles;
-    for (std::uint32_t y = 0; y + 1 < n; ++y)
-        for (std::uint32_t x = 0; x + 1 < n; ++x) {
-            const std::uint32_t a = y * n + x, b = a + 1, c = a + n, d = c + 1;
-            triangles.push_back({a, b, d});
-            triangles.push_back({a, d, c});
-        }
-    return triangles;
-}
-
-Bytes random_bytes(std::size_t size, std::uint64_t seed)
-{
-    Random random(seed);
-    Bytes bytes(size);
-    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.bits());
-    return bytes;
-}
 
 Bytes bytes_of(const std::vector<float>& values)
 {
@@ -155,34 +134,6 @@ TEST(Times, of_any_kind_are_exact)
     EXPECT_EQ(times_back(summed, 30.0), summed);
 }
 
-struct Clip {
-    Header header{"test", 25, 25, 32, 10, OrderMode::keep, 0, "test 1"};
-    std::vector<Triangle> triangles = grid(5);
-    std::vector<double> times_s = uniform_times(10, 30);
-    Metadata meta{"wave", true, Axis::y, 0.01, 30};
-    Appearance appearance;
-    Bytes connectivity = {1, 2, 3}, frames = {4, 5, 6, 7};
-
-    Clip()
-    {
-        appearance.attributes.push_back({"color0", Domain::vertex, Scalar::u8, 4, true, random_bytes(100, 1), {}});
-        appearance.materials = {"skin", "cloth"};
-        appearance.groups = {"all"};
-        appearance.assets.push_back({"a.png", "image/png", random_bytes(50, 2)});
-        appearance.assets.push_back({"empty", "", {}});
-    }
-    Bytes file() const
-    {
-        StreamWriter file;
-        EXPECT_TRUE(add_head(file, header, times_s, meta).ok());
-        file.add(type::conn, ByteView(connectivity));
-        EXPECT_TRUE(add_appearance(file, appearance, {25, triangles}).ok());
-        EXPECT_TRUE(file.add(type::segm, Segment{0, 4, frames}).ok());
-        EXPECT_TRUE(file.add(type::segm, Segment{4, 6, frames}).ok());
-        return std::move(file).finish();
-    }
-};
-
 TEST(Package, comes_back_as_it_went_in)
 {
     const Clip clip;
@@ -190,34 +141,35 @@ TEST(Package, comes_back_as_it_went_in)
     const auto file = StreamReader::open(bytes);
     ASSERT_TRUE(file.ok()) << file.error().sentence();
     Budget budget(1 << 20);
-    EXPECT_EQ(read_header(*file)->coded_vertex_count, 25u);
+    EXPECT_EQ(read_header(*file)->coded_vertex_count, 4u);
     EXPECT_EQ(*read_times(*file, clip.header, budget), clip.times_s);
     EXPECT_EQ(read_metadata(*file)->name, "wave");
-    const auto appearance = read_appearance(*file, {25, clip.triangles}, budget);
+    const auto appearance = read_appearance(*file, clip.mesh(), budget);
     ASSERT_TRUE(appearance.ok()) << appearance.error().sentence();
     EXPECT_EQ(appearance->materials, clip.appearance.materials);
     EXPECT_EQ(appearance->attributes[0].values, clip.appearance.attributes[0].values);
     EXPECT_EQ(appearance->assets[0].bytes, clip.appearance.assets[0].bytes);
-    EXPECT_EQ(read_segments(*file, clip.header)->at(1).first_frame, 4u);
+    EXPECT_EQ(read_segments(*file, clip.header)->at(1).first_frame, 2u);
 }
 
 TEST(Package, refuses_segments_that_leave_a_gap)
 {
-    Clip clip;
-    clip.header.frame_count = 11;
-    clip.times_s = uniform_times(11, 30);
-    const Bytes bytes = clip.file();
-    const auto segments = read_segments(*StreamReader::open(bytes), clip.header);
-    ASSERT_FALSE(segments.ok());
-    EXPECT_EQ(segments.error().sentence(), "SEGM.frame_count: the segments end at frame 10 of 11");
+    const Bytes bytes = Clip().file();
+    const auto file = StreamReader::open(bytes);
+    Header header = *read_header(*file);
+    header.frame_count = 4;
+    EXPECT_EQ(read_segments(*file, header).error().sentence(), "SEGM.frame_count: the segments end at frame 3 of 4");
+    header.frame_count = 2;
+    EXPECT_THAT(read_segments(*file, header).error().sentence(),
+                testing::HasSubstr("frames 2 and 0 more, but frame 2 of 2"));
 }
 
 TEST(Package, refuses_an_attribute_that_unpacks_to_more_than_the_memory_allowed)
 {
     const Clip clip;
     const Bytes bytes = clip.file();
-    Budget budget(200);
-    const auto appearance = read_appearance(*StreamReader::open(bytes), {25, clip.triangles}, budget);
+    Budget budget(5);
+    const auto appearance = read_appearance(*StreamReader::open(bytes), clip.mesh(), budget);
     ASSERT_FALSE(appearance.ok());
     EXPECT_THAT(appearance.error().sentence(), testing::HasSubstr("memory limit"));
 }

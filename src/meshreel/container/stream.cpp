@@ -39,18 +39,6 @@ bool may_be_skipped(Tag type)
     return (type & 0x20) != 0;
 }
 
-/// Type and length of a chunk.
-struct ChunkHead {
-    Tag type = 0;
-    std::uint64_t size = 0;
-
-    void fields(auto& io)
-    {
-        io.tag("type", type, "type of the chunk");
-        io.varint("size", size, any, "of the payload, bytes");
-    }
-};
-
 Error damaged_signature(ByteView bytes)
 {
     const bool looks_right = bytes.size() >= 5 && std::memcmp(bytes.data() + 1, "REEL", 4) == 0;

@@ -53,6 +53,25 @@ struct Preamble {
     }
 };
 
+/// What stands before a payload.
+struct ChunkHead {
+    Tag type = 0;
+    std::uint64_t size = 0;
+
+    void fields(auto& io)
+    {
+        io.tag("type", type, "type of the chunk");
+        io.varint("size", size, any, "of the payload, bytes");
+    }
+};
+
+/// What stands after a payload.
+struct ChunkEnd {
+    std::uint32_t checksum = 0;
+
+    void fields(auto& io) { io.u32("checksum", checksum, any, "low 32 bits of XXH3-64 of type, size and payload"); }
+};
+
 /// The payload of INDX.
 struct Index {
     struct Entry {
@@ -112,6 +131,7 @@ public:
     void add(Tag type, ByteView payload);
     /// Appends a chunk from a struct. @fails usage: a field is outside its range.
     template <class Struct>
+    requires requires(Struct& value, Writer& writer) { value.fields(writer); }
     Status add(Tag type, const Struct& value)
     {
         MESHREEL_TRY(const Bytes payload, write_fields(value));
