@@ -102,6 +102,26 @@ std::uint32_t corner_value(const Attribute& attribute, const Animation& animatio
     return attribute.indices.empty() ? static_cast<std::uint32_t>(element) : attribute.indices[element];
 }
 
+std::optional<std::vector<std::uint32_t>> vertex_values(const Attribute& attribute, const Animation& animation)
+{
+    std::vector<std::uint32_t> values(animation.vertex_count, no_value);
+    if (attribute.domain == Domain::triangle) return std::nullopt;
+    if (attribute.domain == Domain::vertex) {
+        for (std::uint32_t v = 0; v < animation.vertex_count; ++v)
+            values[v] = attribute.indices.empty() ? v : attribute.indices[v];
+        return values;
+    }
+    const std::size_t size = scalar_size(attribute.type) * attribute.components;
+    for (std::size_t corner = 0; corner < animation.triangles.size() * 3; ++corner) {
+        std::uint32_t& known = values[animation.triangles[corner / 3][corner % 3]];
+        const std::uint32_t value = corner_value(attribute, animation, corner);
+        if (known == no_value) known = value;
+        const auto at = [&](std::uint32_t i) { return attribute.values.data() + i * size; };
+        if (value == no_value ? known != no_value : std::memcmp(at(known), at(value), size) != 0) return std::nullopt;
+    }
+    return values;
+}
+
 std::int64_t attribute_integer(const Attribute& attribute, std::size_t value, std::size_t component)
 {
     const std::uint32_t bits = bits_at(attribute, value, component);

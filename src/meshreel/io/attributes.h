@@ -27,6 +27,10 @@ std::uint32_t triangle_number(const Attribute& attribute, std::size_t triangle);
 /// The place in the table of values that belongs to a corner, or no_value. Domain vertex or corner.
 std::uint32_t corner_value(const Attribute& attribute, const Animation& animation, std::size_t corner);
 
+/// For each vertex the place of its value in the table, or no_value. Nothing: a triangle attribute, or one that gives
+/// a vertex different values at different corners.
+std::optional<std::vector<std::uint32_t>> vertex_values(const Attribute& attribute, const Animation& animation);
+
 /// One number of a table. Normalized integers become fractions of 1.
 float attribute_float(const Attribute& attribute, std::size_t value, std::size_t component);
 

@@ -55,7 +55,7 @@ struct CornerTable {
     std::size_t components = 0;
     std::size_t count = 0;
     std::vector<std::uint32_t> indices = {}; ///< [3T]
-    std::uint64_t largest = 0;          ///< row named, from 1
+    std::uint64_t largest = 0;               ///< row named, from 1
     std::uint64_t largest_line = 0;
 };
 

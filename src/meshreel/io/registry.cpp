@@ -7,6 +7,8 @@
 #include "meshreel/io/gltf.h"
 #include "meshreel/io/io.h"
 #include "meshreel/io/obj.h"
+#include "meshreel/io/off.h"
+#include "meshreel/io/ply.h"
 #include "meshreel/io/point_cache.h"
 
 namespace meshreel::io {
@@ -14,6 +16,8 @@ namespace meshreel::io {
 namespace {
 
 constexpr std::string_view obj_extensions[] = {"obj"};
+constexpr std::string_view ply_extensions[] = {"ply"};
+constexpr std::string_view off_extensions[] = {"off", "coff", "noff", "stoff"};
 constexpr std::string_view pc2_extensions[] = {"pc2"};
 constexpr std::string_view mdd_extensions[] = {"mdd"};
 
@@ -21,6 +25,8 @@ constexpr std::string_view gltf_extensions[] = {"glb", "gltf"};
 
 constexpr Format table[] = {
     {"obj", obj_extensions, "Wavefront OBJ, one file a frame", load_obj, save_obj},
+    {"ply", ply_extensions, "Stanford PLY, one file a frame", load_ply, save_ply},
+    {"off", off_extensions, "Object File Format, one file a frame", load_off, save_off},
     {"pc2", pc2_extensions, "PointCache2, positions of a mesh, evenly spaced", load_pc2, save_pc2},
     {"mdd", mdd_extensions, "MDD, positions of a mesh, with times", load_mdd, save_mdd},
     {"gltf", gltf_extensions, "glTF 2.0 and GLB, skins and morph targets baked", load_gltf, nullptr},

@@ -26,6 +26,8 @@ public:
     std::string_view rest();
     /// The number of this line, from 1. A continued line has the number of its first part.
     std::uint64_t line() const { return line_; }
+    /// The offset of what word() has not looked at yet.
+    std::size_t offset() const { return at_; }
     /// The offset behind this line and its line end.
     std::size_t next_offset() const { return next_; }
 
