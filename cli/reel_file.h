@@ -1,0 +1,21 @@
+/// .reel files as one more format: read by decode(), written by encode() with its defaults.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/console.h"
+#include "cli/source.h"
+#include "cli/target.h"
+#include "meshreel/mesh/animation.h"
+
+namespace meshreel::cli {
+
+/// Decodes a .reel file, all its frames. @fails io, bad_input, unsupported; naming the file.
+Result<Animation> load_reel(const Source& source, Console& console);
+
+/// The base mesh that `source.base` names, or an empty animation where it names none.
+Result<Animation> load_base(const Source& source, Console& console);
+
+/// Encodes with every option at its default.
+Status save_reel(const Animation& animation, const Target& target, Console& console);
+
+} // namespace meshreel::cli

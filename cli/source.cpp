@@ -1,0 +1,140 @@
+/// Dispatches .reel files to the codec and everything else to the formats.
+// SPDX-License-Identifier: MIT
+#include "cli/source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/numbers.h"
+#include "cli/reel_file.h"
+
+namespace meshreel::cli {
+
+namespace {
+
+io::LoadOptions load_options(const Source& source, Console& console)
+{
+    io::LoadOptions options;
+    options.mesh = source.mesh;
+    options.clip = source.clip;
+    options.fps = source.fps;
+    options.frames = source.frames;
+    options.limits = source.limits;
+    options.progress = console.progress();
+    options.warn = [&console](const std::string& text) { console.warn(text); };
+    return options;
+}
+
+/// A format asked for by name reads whatever it is given, standard input too.
+Result<Animation> load_as(const io::Format& format, const Source& source, const io::LoadOptions& options)
+{
+    if (format.load == nullptr)
+        return in_file(Result<Animation>(unsupported(fmt::format("{} cannot be read", format.name))), source.path);
+    MESHREEL_TRY(Animation animation, in_file(format.load(source.path, options), source.path));
+    MESHREEL_CHECK(in_file(validate(animation), source.path));
+    return animation;
+}
+
+Result<Animation> load_reel_source(const Source& source, Console& console)
+{
+    if (source.fps > 0.0)
+        return Error{
+            ErrorCode::usage, "--fps does not apply to a .reel file, which has its own times", {}, source.path};
+    MESHREEL_TRY(Animation animation, load_reel(source, console));
+    return in_file(chosen_frames(std::move(animation), source.frames), source.path);
+}
+
+} // namespace
+
+void Source::declare(CLI::App& app)
+{
+    app.add_option("--mesh", mesh, "the mesh of a point cache (.pc2, .mdd)")->type_name("FILE");
+    app.add_option("--base", base, "the base mesh of a .reel file made with --base")->type_name("FILE");
+    app.add_option("--clip", clip, "the clip to take of a file with several; default: the first")->type_name("NAME");
+    app.add_option("--fps", fps, "frames a second: sampling rate of a skinned file, timing of a sequence")
+        ->check(positive())
+        ->type_name("N");
+    add_parsed(app, "--frames", frames, parse_frames, "frames to take, from 0, the last included")
+        ->type_name("A:B:STEP");
+    declare_limits(app);
+}
+
+void Source::declare_limits(CLI::App& app)
+{
+    app.add_option("--threads", threads.count, "threads to use; default: one a core")->type_name("N");
+    add_parsed(app, "--max-memory", limits.max_memory, parse_memory, "memory that a file may make us hold; default 16G")
+        ->type_name("SIZE");
+}
+
+std::string Source::format_name() const
+{
+    if (!format.empty()) return format;
+    std::string extension = std::filesystem::path(path).extension().string();
+    if (extension.empty()) return {};
+    extension.erase(0, 1);
+    for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    if (extension == "reel") return extension;
+    for (const io::Format& row : io::formats())
+        if (std::find(row.extensions.begin(), row.extensions.end(), extension) != row.extensions.end())
+            return std::string(row.name);
+    return {};
+}
+
+void declare_format(CLI::App& app, const std::string& option, std::string& format, const std::string& help)
+{
+    std::vector<std::string> names{"reel"};
+    for (const io::Format& row : io::formats()) names.emplace_back(row.name);
+    app.add_option(option, format, fmt::format("{}: {}", help, fmt::join(names, ", ")))
+        ->check(one_of(names))
+        ->type_name("NAME");
+}
+
+const io::Format* format_called(const std::string& name)
+{
+    for (const io::Format& row : io::formats())
+        if (row.name == name) return &row;
+    return nullptr;
+}
+
+Result<Animation> load(const Source& source, Console& console)
+{
+    if (source.is_reel()) return load_reel_source(source, console);
+    if (source.path == "-" && source.format.empty())
+        return Error{ErrorCode::usage, "standard input has no extension; say its format by --format", {}, "-"};
+    const io::LoadOptions options = load_options(source, console);
+    const io::Format* const format = source.format.empty() ? nullptr : format_called(source.format);
+    if (format != nullptr) return load_as(*format, source, options);
+    return in_file(io::load(source.path, options), source.path);
+}
+
+Result<Animation> chosen_frames(Animation animation, const io::FrameRange& frames)
+{
+    const std::size_t count = animation.frame_count();
+    if (frames.first == 0 && frames.step == 1 && frames.last >= count) return animation;
+    if (frames.first >= count)
+        return Error{ErrorCode::usage, fmt::format("frame {} is beyond the {} frames", frames.first, count),
+                     "--frames"};
+    const std::size_t last = std::min<std::size_t>(frames.last, count - 1);
+    std::size_t kept = 0;
+    const std::size_t stride = animation.vertex_count * std::size_t{3};
+    for (std::size_t f = frames.first; f <= last; ++kept) {
+        const auto from = animation.positions.begin() + static_cast<std::ptrdiff_t>(f * stride);
+        std::copy_n(from, stride, animation.positions.begin() + static_cast<std::ptrdiff_t>(kept * stride));
+        animation.times_s[kept] = animation.times_s[f];
+        if (frames.step > last - f) { // the next one would be beyond the last, or beyond all numbers
+            ++kept;
+            break;
+        }
+        f += frames.step;
+    }
+    animation.positions.resize(kept * stride);
+    animation.times_s.resize(kept);
+    if (frames.step > 1) animation.meta.fps /= static_cast<double>(frames.step);
+    return animation;
+}
+
+} // namespace meshreel::cli

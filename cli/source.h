@@ -1,0 +1,50 @@
+/// An animation named on the command line as input, with the options that say how to read it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/console.h"
+#include "meshreel/base/limits.h"
+#include "meshreel/base/parallel.h"
+#include "meshreel/io/io.h"
+#include "meshreel/mesh/animation.h"
+
+namespace meshreel::cli {
+
+/// Where an animation comes from: a file, a sequence, or "-".
+struct Source {
+    std::string path;
+    std::string format; ///< a format's name or "reel", where the path's extension does not say it
+    std::string mesh;   ///< the mesh of a point cache
+    std::string base;   ///< the base mesh of a .reel file that has no connectivity
+    std::string clip;
+    double fps = 0.0; ///< 0: the file's
+    io::FrameRange frames;
+    DecodeLimits limits;
+    Threads threads;
+
+    /// Declares every option but the path and the format.
+    void declare(CLI::App& app);
+    /// --threads and --max-memory alone.
+    void declare_limits(CLI::App& app);
+    /// "reel", "obj", ...; empty where nothing says it.
+    std::string format_name() const;
+    bool is_reel() const { return format_name() == "reel"; }
+};
+
+/// Declares an option that names a format: obj, glb, ..., reel.
+void declare_format(CLI::App& app, const std::string& option, std::string& format, const std::string& help);
+
+/// The row of the format of that name, or null.
+const io::Format* format_called(const std::string& name);
+
+/// Reads any animation; the result is valid. @fails as io::load and decode do, naming the file.
+Result<Animation> load(const Source& source, Console& console);
+
+/// Frames first, first + step, ..., last of an animation, as readers count them. @fails usage: none is left.
+Result<Animation> chosen_frames(Animation animation, const io::FrameRange& frames);
+
+} // namespace meshreel::cli

@@ -1,0 +1,25 @@
+/// The table of verbs.
+// SPDX-License-Identifier: MIT
+#include "cli/verb.h"
+
+#include <array>
+
+namespace meshreel::cli {
+
+std::unique_ptr<Verb> make_validate();
+std::unique_ptr<Verb> make_compare();
+std::unique_ptr<Verb> make_convert();
+std::unique_ptr<Verb> make_generate();
+
+std::span<const VerbRow> verbs()
+{
+    static constexpr std::array rows{
+        VerbRow{"validate", "check a file and say what it is and what is wrong with it", make_validate},
+        VerbRow{"compare", "measure how far one animation is from another", make_compare},
+        VerbRow{"convert", "turn an animation from any format into any other", make_convert},
+        VerbRow{"generate", "make a sample animation", make_generate},
+    };
+    return rows;
+}
+
+} // namespace meshreel::cli

@@ -1,0 +1,54 @@
+/// Runs the real command as a child process and keeps what it said.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace meshreel::cli_test {
+
+/// What a finished command left: its exit code (128 + signal where a signal ended it) and its two streams.
+struct Outcome {
+    int exit_code = -1;
+    std::string out, err;
+
+    /// Standard output as JSON; a discarded value where it is none.
+    nlohmann::json json() const { return nlohmann::json::parse(out, nullptr, false); }
+};
+
+/// How the child is started.
+struct Start {
+    std::string input = {};              ///< bytes on standard input
+    std::string output_file = {};        ///< standard output goes there instead of into Outcome::out
+    unsigned long long largest_file = 0; ///< bytes that a file may have; 0: any
+    unsigned interrupt_after_ms = 0;     ///< SIGINT then; 0: never
+};
+
+/// Runs `meshreel ARGUMENTS` in a folder.
+Outcome run_in(const std::filesystem::path& folder, const std::vector<std::string>& arguments, const Start& start = {});
+
+/// A test with an empty folder of its own, in which commands run.
+class CommandTest : public testing::Test {
+protected:
+    void SetUp() override;
+    void TearDown() override;
+
+    /// run("convert a.obj b.pc2"): words are parted by spaces.
+    Outcome run(const std::string& words, const Start& start = {}) const;
+    /// Runs, and expects exit code 0.
+    Outcome good(const std::string& words, const Start& start = {}) const;
+
+    std::string read(const std::string& name) const;
+    void write(const std::string& name, const std::string& bytes) const;
+    bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+    /// Names of all files in the folder, sorted.
+    std::vector<std::string> files() const;
+
+    std::filesystem::path folder_;
+};
+
+} // namespace meshreel::cli_test
