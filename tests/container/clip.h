@@ -32,7 +32,7 @@ inline Bytes random_bytes(std::size_t size, std::uint64_t seed)
 
 /// A square of four vertices and two triangles in three frames; connectivity and codec bytes are made up.
 struct Clip {
-    Header header{"none", 4, 4, 2, 3, OrderMode::keep, 0, "meshreel 0.1.0"};
+    Header header{"none", 4, 4, 2, 3, Order::keep, 0, "meshreel 0.1.0"};
     std::vector<Triangle> triangles = grid(2);
     std::vector<double> times_s = uniform_times(3, 24);
     Metadata meta{"wave", true, Axis::y, 0.01, 24};

@@ -5,14 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "meshreel/base/order.h"
 #include "meshreel/container/fields.h"
 #include "meshreel/container/words.h"
 #include "meshreel/mesh/animation.h"
 
 namespace meshreel::container {
-
-/// Whether vertices and triangles stand in the original order; the same values as meshreel::Order.
-enum class OrderMode : std::uint8_t { keep, free, base };
 
 /// HEAD: what the file holds. All other chunks rest on its counts.
 struct Header {
@@ -21,7 +19,7 @@ struct Header {
     std::uint32_t coded_vertex_count = 0; ///< W, after welding
     std::uint32_t triangle_count = 0;     ///< T
     std::uint32_t frame_count = 0;        ///< F
-    OrderMode order = OrderMode::keep;
+    Order order = Order::keep;
     std::uint64_t base_fingerprint = 0; ///< fingerprint_of the base mesh
     std::string encoder;                ///< who wrote the file; for people
 
@@ -35,7 +33,7 @@ struct Header {
         io.varint("frame_count", frame_count, up_to(Limit::frames, 1), "F");
         io.choice("order", order, {"keep", "free", "base"},
                   "of vertices and triangles: the original one; the codec's; that of a base mesh the reader must have");
-        io.when(order == OrderMode::base, "order = base", [&] {
+        io.when(order == Order::base, "order = base", [&] {
             io.u64("base_fingerprint", base_fingerprint, any,
                    "XXH3-64 of the base mesh's V and then its triangles, all u32");
         });
