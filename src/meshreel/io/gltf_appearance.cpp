@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "meshreel/base/text.h"
+#include "meshreel/io/attributes.h"
 #include "meshreel/io/gltf_names.h"
 
 namespace meshreel::io {
@@ -83,21 +84,6 @@ Status finish(const GltfDocument& document, Column&& column, Animation& animatio
     return Ok{};
 }
 
-/// A number a triangle; gltf_none: no value.
-Attribute triangle_attribute(const char* name, const std::vector<std::uint32_t>& numbers)
-{
-    Attribute attribute{name, Domain::triangle, Scalar::u32, 1, false, {}, {}};
-    const bool gaps = std::find(numbers.begin(), numbers.end(), gltf_none) != numbers.end();
-    if (gaps) attribute.indices.assign(numbers.size(), gltf_none);
-    for (std::size_t t = 0; t < numbers.size(); ++t) {
-        if (numbers[t] == gltf_none) continue;
-        if (gaps) attribute.indices[t] = static_cast<std::uint32_t>(attribute.values.size() / 4);
-        for (unsigned shift = 0; shift < 32; shift += 8)
-            attribute.values.push_back(static_cast<std::uint8_t>(numbers[t] >> shift));
-    }
-    return attribute;
-}
-
 struct TriangleNumbers {
     std::vector<std::uint32_t> materials, groups;
     std::map<std::string, std::size_t> nodes; ///< how often each node name came up
@@ -138,8 +124,8 @@ Status read_triangles(const GltfDocument& document, const GltfScene& scene, cons
     }
     const bool any =
         std::any_of(numbers.materials.begin(), numbers.materials.end(), [](std::uint32_t m) { return m != gltf_none; });
-    if (any) animation.appearance.attributes.push_back(triangle_attribute("material", numbers.materials));
-    animation.appearance.attributes.push_back(triangle_attribute("group", numbers.groups));
+    if (any) animation.appearance.attributes.push_back(triangle_numbers("material", numbers.materials));
+    animation.appearance.attributes.push_back(triangle_numbers("group", numbers.groups));
     return Ok{};
 }
 

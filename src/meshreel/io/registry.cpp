@@ -29,7 +29,7 @@ constexpr Format table[] = {
     {"off", off_extensions, "Object File Format, one file a frame", load_off, save_off},
     {"pc2", pc2_extensions, "PointCache2, positions of a mesh, evenly spaced", load_pc2, save_pc2},
     {"mdd", mdd_extensions, "MDD, positions of a mesh, with times", load_mdd, save_mdd},
-    {"gltf", gltf_extensions, "glTF 2.0 and GLB, skins and morph targets baked", load_gltf, nullptr},
+    {"gltf", gltf_extensions, "glTF 2.0 and GLB, skins and morph targets baked", load_gltf, save_gltf},
 };
 
 char lower(char c)
