@@ -13,6 +13,10 @@ namespace meshreel::shapes {
 namespace {
 
 constexpr std::array table{
+    Shape{"cloth", "a cloth falling on a ball, a ring and the ground (position-based dynamics)", 4, cloth},
+    Shape{"jelly", "a soft cube that falls, bounces and wobbles (elastic lattice)", 8, jelly},
+    Shape{"swimmer", "a swimming fish: waves run down its body", 8, swimmer},
+    Shape{"snake", "a snake crawling along its own track", 8, snake},
     Shape{"wave", "a standing wave on a sheet: exactly rank 1", 4, wave},
 };
 

@@ -14,8 +14,8 @@ namespace meshreel::shapes {
 struct ShapeOptions {
     std::uint32_t vertices = 2500; ///< V of the result, exactly; at least the shape's minimum
     std::uint32_t frames = 100;    ///< F of the result, exactly; >= 1
-    double fps = 25.0;             ///< frames a second, > 0; motion is in seconds, so more frames show more of it
-    std::uint64_t seed = 1;        ///< another seed, another motion
+    double fps = 25.0;      ///< frames a second, 1 .. 10000; motion is in seconds, so more frames show more of it
+    std::uint64_t seed = 1; ///< another seed, another motion
 };
 
 /// One row of the registry.
@@ -34,7 +34,7 @@ const Shape* find(std::string_view name);
 
 /// Makes an animation: V and F exactly as asked, valid, and the same bytes for the same options on every machine and
 /// with every compiler: only + - * / sqrt and base/exact.h, in a fixed order.
-/// @fails usage: too few vertices for this shape, no frame, fps not positive, or more than 2^31 numbers.
+/// @fails usage: too few vertices for this shape, no frame, fps out of its range, or more than 2^31 numbers.
 Result<Animation> generate(const Shape& shape, const ShapeOptions& options = {});
 
 } // namespace meshreel::shapes

@@ -6,6 +6,10 @@
 
 namespace meshreel::shapes {
 
+Animation cloth(const ShapeOptions& options);
+Animation jelly(const ShapeOptions& options);
+Animation swimmer(const ShapeOptions& options);
+Animation snake(const ShapeOptions& options);
 Animation wave(const ShapeOptions& options);
 
 } // namespace meshreel::shapes

@@ -4,12 +4,11 @@
 #include "meshreel/base/random.h"
 #include "meshreel/mesh/shapes/body.h"
 #include "meshreel/mesh/shapes/makers.h"
+#include "meshreel/mesh/shapes/vec.h"
 
 namespace meshreel::shapes {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// The multiple of 2^-11 nearest to x. Two such numbers of at most 1 have a product that float32 holds exactly.
 double coarse(double x)
