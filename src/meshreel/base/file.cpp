@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "meshreel/base/file.h"
 
-#include <cerrno>
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <random>
@@ -62,8 +62,9 @@ Result<Bytes> read_file(const std::string& path, const DecodeLimits& limits)
         bytes.resize(filled + static_cast<std::size_t>(got));
         if (got == 0) return bytes;
         if (bytes.size() > limits.max_memory)
-            return in_file(Result<Bytes>(bad_input(concat("is larger than the memory limit of ", limits.max_memory, " bytes"))),
-                           path);
+            return in_file(
+                Result<Bytes>(bad_input(concat("is larger than the memory limit of ", limits.max_memory, " bytes"))),
+                path);
     }
 }
 
@@ -95,8 +96,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite)
         if (device < 0) return system_error(path, "cannot write");
         return AtomicFile(path, {}, device);
     }
-    if (there && !overwrite)
-        return Error{ErrorCode::usage, "exists already; pass -y to overwrite it", {}, path, {}};
+    if (there && !overwrite) return Error{ErrorCode::usage, "exists already; pass -y to overwrite it", {}, path, {}};
     std::string temporary = temporary_name(path);
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) return system_error(path, "cannot write");

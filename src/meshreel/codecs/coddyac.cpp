@@ -8,6 +8,7 @@
 #include "meshreel/codecs/trajectories.h"
 #include "meshreel/coding/huffman.h"
 #include "meshreel/coding/range_symbols.h"
+#include "meshreel/container/explain.h"
 #include "meshreel/linalg/pca.h"
 
 namespace meshreel::codecs {
@@ -128,6 +129,8 @@ public:
     {
     }
 
+    double energy() const override { return pca_.energy; }
+
     Trial encode(const Settings& settings) const override
     {
         const std::size_t K = bases(settings), n = pca_.mean.size();
@@ -222,11 +225,16 @@ Status decode(const container::Source& source, const connectivity::Surface& surf
     return Ok{};
 }
 
+Status explain(const container::Source& source, const DecodeLimits& limits, std::string& lines)
+{
+    return container::explain_fields<Payload>(source, limits, lines);
+}
+
 } // namespace
 
 Codec coddyac()
 {
-    return {"coddyac", "PCA of trajectories, parallelogram along Edgebreaker, Cobra basis", prepare, decode};
+    return {"coddyac", "PCA of trajectories, parallelogram along Edgebreaker, Cobra basis", prepare, decode, explain};
 }
 
 } // namespace meshreel::codecs

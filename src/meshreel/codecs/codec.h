@@ -34,6 +34,8 @@ class Encoder {
 public:
     virtual ~Encoder() = default;
 
+    /// Squared norm of all positions less each frame's centroid: |A - E(A)|^2 of (5.2).
+    virtual double energy() const = 0;
     /// The same bytes for any number of threads.
     virtual Trial encode(const Settings& settings) const = 0;
 };
@@ -50,6 +52,9 @@ struct Codec {
     /// @fails bad_input, naming byte and field.
     Status (*decode)(const container::Source& payload, const connectivity::Surface& surface, MatrixView<float> frames,
                      const DecodeLimits& limits, Threads threads);
+
+    /// Appends a line a field of the payload. @fails as decode.
+    Status (*explain)(const container::Source& payload, const DecodeLimits& limits, std::string& lines);
 };
 
 /// Every codec, in the order of the documentation.

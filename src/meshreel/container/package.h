@@ -3,7 +3,7 @@
 //
 // Writing:  StreamWriter file;
 //           add_head(file, header, times_s, meta);      HEAD TIME meta
-//           file.add(type::conn, connectivity);         CONN, but for Order::base
+//           file.add(type::conn, connectivity);         CONN
 //           add_appearance(file, appearance, mesh);     matl grup attr... aset...
 //           file.add(type::segm, Segment{0, F, bits});  SEGM...
 //           Bytes reel = std::move(file).finish();

@@ -23,9 +23,9 @@ struct FrameRange {
 };
 
 struct LoadOptions {
-    std::string mesh;     ///< the mesh of a point cache (PC2, MDD): a path of any mesh format
-    std::string clip;     ///< the clip of a file with several (glTF, MD2), by name; empty: the first (MD2: all frames)
-    double fps = 0.0;     ///< frames a second: the sampling rate of a baked file, the timing of a sequence; 0: the file's
+    std::string mesh; ///< the mesh of a point cache (PC2, MDD): a path of any mesh format
+    std::string clip; ///< the clip of a file with several (glTF, MD2), by name; empty: the first (MD2: all frames)
+    double fps = 0.0; ///< frames a second: the sampling rate of a baked file, the timing of a sequence; 0: the file's
     FrameRange frames;
     DecodeLimits limits;
     Progress progress;
@@ -48,9 +48,9 @@ struct SaveOptions {
 
 /// One row of the registry. A format that cannot do a direction leaves its function null.
 struct Format {
-    std::string_view name;                       ///< "obj"
+    std::string_view name;                        ///< "obj"
     std::span<const std::string_view> extensions; ///< lower case, without the dot
-    std::string_view summary;                    ///< "Wavefront OBJ, one file a frame"
+    std::string_view summary;                     ///< "Wavefront OBJ, one file a frame"
     Result<Animation> (*load)(const std::string& path, const LoadOptions& options);
     Status (*save)(const Animation& animation, const std::string& path, const SaveOptions& options);
 };

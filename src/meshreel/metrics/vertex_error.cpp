@@ -31,18 +31,23 @@ VertexError frame_error(std::span<const float> original, std::span<const float> 
 
 } // namespace
 
-VertexError vertex_error(const Animation& original, const Animation& distorted, Threads threads)
+VertexError vertex_error(const Pair<float>& pair, Threads threads)
 {
-    std::vector<VertexError> frames(original.frame_count());
+    std::vector<VertexError> frames(pair.frame_count());
     parallel_for(frames.size(), threads,
-                 [&](std::size_t f) { frames[f] = frame_error(original.frame(f), distorted.frame(f)); });
+                 [&](std::size_t f) { frames[f] = frame_error(pair.original.row(f), pair.distorted.row(f)); });
     VertexError all;
     for (const VertexError& frame : frames) {
         all.mean_square += frame.mean_square;
         all.largest_square = std::max(all.largest_square, frame.largest_square);
     }
-    all.mean_square /= static_cast<double>(frames.size()) * original.vertex_count;
+    all.mean_square /= static_cast<double>(frames.size() * pair.vertex_count());
     return all;
+}
+
+VertexError vertex_error(const Animation& original, const Animation& distorted, Threads threads)
+{
+    return vertex_error(pair_of(original, distorted), threads);
 }
 
 double rms_error(const Animation& original, const Animation& distorted, Threads threads)

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "meshreel/base/parallel.h"
-#include "meshreel/mesh/animation.h"
+#include "meshreel/metrics/motion.h"
 
 namespace meshreel::metrics {
 
@@ -13,7 +13,8 @@ struct VertexError {
     double largest_square = 0.0;
 };
 
-/// Both animations have the same V and F. The same for any number of threads. @cost O(F V).
+/// Both motions have the same V and F. The same for any number of threads. @cost O(F V).
+VertexError vertex_error(const Pair<float>& pair, Threads threads = {});
 VertexError vertex_error(const Animation& original, const Animation& distorted, Threads threads = {});
 
 /// Root of the mean squared distance, model units.

@@ -1,0 +1,167 @@
+/// The way out of a file: from any bytes to an animation, or to what they say of themselves.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "meshreel/base/text.h"
+#include "meshreel/codecs/codec.h"
+#include "meshreel/connectivity/topology.h"
+#include "meshreel/container/explain.h"
+#include "meshreel/container/package.h"
+#include "meshreel/meshreel.h"
+
+namespace meshreel {
+
+namespace {
+
+using container::Header;
+using container::StreamReader;
+
+Status check_base(const Header& header, const Animation* base)
+{
+    if (header.order != Order::base) return Ok{};
+    if (base == nullptr)
+        return Error{ErrorCode::usage, "was made with a base mesh, which must be given to decode it", "base", {}, {}};
+    const bool same = base->vertex_count == header.vertex_count &&
+                      container::fingerprint_of(base->vertex_count, base->triangles) == header.base_fingerprint;
+    if (same) return Ok{};
+    return Error{ErrorCode::usage, "the base mesh given is not the one the file was made with", "base", {}, {}};
+}
+
+Result<connectivity::Topology> read_topology(const StreamReader& file, const Header& header, const Animation* base)
+{
+    MESHREEL_CHECK(check_base(header, base));
+    const container::Chunk* chunk = file.find(container::type::conn);
+    if (chunk == nullptr) return bad_input("the file has no such chunk", "CONN");
+    const std::span<const Triangle> base_triangles = base == nullptr ? std::span<const Triangle>() : base->triangles;
+    Result<connectivity::Topology> topology = connectivity::decode(chunk->payload, base_triangles, file.limits());
+    if (!topology.ok()) {
+        Error error = std::move(topology).error();
+        error.field = error.field.empty() ? "CONN" : "CONN." + error.field;
+        error.place = at_byte(chunk->offset + (error.place ? error.place->number : 0));
+        return error;
+    }
+    if (topology->vertex_count != header.vertex_count || topology->surface.vertex_count != header.coded_vertex_count ||
+        topology->triangles.size() != header.triangle_count)
+        return bad_input("holds other counts than the header", "CONN", at_byte(chunk->offset));
+    return topology;
+}
+
+Result<const codecs::Codec*> codec_of(const Header& header)
+{
+    const codecs::Codec* codec = codecs::find(header.codec);
+    if (codec == nullptr) return unsupported(concat("there is no codec \"", header.codec, "\""), "HEAD.codec");
+    return codec;
+}
+
+/// Decodes all segments into frames [F x 3W].
+Status read_frames(const StreamReader& file, const Header& header, const connectivity::Surface& surface,
+                   MatrixView<float> frames, const DecodeOptions& options)
+{
+    MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
+    MESHREEL_TRY(const std::vector<container::Segment> segments, container::read_segments(file, header));
+    for (const container::Segment& segment : segments) {
+        report(options.progress, "decode", static_cast<double>(segment.first_frame) / header.frame_count);
+        const MatrixView<float> part{frames.data + segment.first_frame * frames.cols, segment.frame_count, frames.cols};
+        const auto offset = static_cast<std::uint64_t>(segment.payload.data() - file.file().data());
+        MESHREEL_CHECK(
+            codec->decode({segment.payload, offset, "SEGM"}, surface, part, options.limits, options.threads));
+    }
+    return Ok{};
+}
+
+/// Gives each of the V vertices the trajectory of its surface vertex.
+std::vector<float> spread(const Matrix<float>& frames, std::span<const std::uint32_t> surface_of)
+{
+    std::vector<float> positions(frames.rows * surface_of.size() * 3);
+    float* out = positions.data();
+    for (std::size_t f = 0; f < frames.rows; ++f)
+        for (std::uint32_t v : surface_of) out = std::copy_n(frames.row(f).data() + 3ul * v, 3, out);
+    return positions;
+}
+
+/// The names of all that is carried beside the positions, without unpacking it.
+Status read_names(const StreamReader& file, Info& info)
+{
+    for (const container::Chunk& chunk : file.all(container::type::attr)) {
+        MESHREEL_TRY(auto attribute, container::read_fields<container::AttributeChunk>(chunk.source(), file.limits()));
+        info.attributes.push_back(std::move(attribute.head.name));
+    }
+    for (const container::Chunk& chunk : file.all(container::type::aset)) {
+        MESHREEL_TRY(auto asset, container::read_fields<container::AssetChunk>(chunk.source(), file.limits()));
+        info.assets.push_back(std::move(asset.name));
+    }
+    for (const container::Chunk& chunk : file.chunks()) {
+        if (chunk.type != container::type::matl && chunk.type != container::type::grup) continue;
+        MESHREEL_TRY(auto names, container::read_fields<container::NamesChunk>(chunk.source(), file.limits()));
+        (chunk.type == container::type::matl ? info.materials : info.groups) = std::move(names.names);
+    }
+    return Ok{};
+}
+
+} // namespace
+
+Result<Animation> decode(ByteView reel, const DecodeOptions& options)
+{
+    MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, options.limits));
+    MESHREEL_TRY(const Header header, container::read_header(file));
+    MESHREEL_CHECK(within(options.limits, header.vertex_count + std::uint64_t{header.coded_vertex_count},
+                          header.triangle_count, header.frame_count));
+    MESHREEL_TRY(connectivity::Topology topology, read_topology(file, header, options.base));
+    Matrix<float> frames(header.frame_count, 3ul * header.coded_vertex_count);
+    MESHREEL_CHECK(read_frames(file, header, topology.surface, frames.view(), options));
+    Animation animation;
+    animation.vertex_count = header.vertex_count;
+    animation.positions = spread(frames, topology.surface_of);
+    animation.triangles = std::move(topology.triangles);
+    container::Budget budget(options.limits.max_memory);
+    MESHREEL_TRY(animation.times_s, container::read_times(file, header, budget));
+    MESHREEL_TRY(animation.meta, container::read_metadata(file));
+    MESHREEL_TRY(animation.appearance,
+                 container::read_appearance(file, {animation.vertex_count, animation.triangles}, budget));
+    MESHREEL_CHECK(validate(animation));
+    return animation;
+}
+
+Result<Info> info(ByteView reel, const DecodeLimits& limits)
+{
+    MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, limits));
+    MESHREEL_TRY(const Header header, container::read_header(file));
+    container::Budget budget(limits.max_memory);
+    MESHREEL_TRY(const std::vector<double> times, container::read_times(file, header, budget));
+    Info info;
+    info.codec = header.codec;
+    info.encoder = header.encoder;
+    info.version_major = file.preamble().major;
+    info.version_minor = file.preamble().minor;
+    info.vertices = header.vertex_count;
+    info.coded_vertices = header.coded_vertex_count;
+    info.triangles = header.triangle_count;
+    info.frames = header.frame_count;
+    info.order = header.order;
+    info.start_s = times.front();
+    info.end_s = times.back();
+    MESHREEL_TRY(info.meta, container::read_metadata(file));
+    MESHREEL_CHECK(read_names(file, info));
+    for (const container::Chunk& chunk : file.chunks())
+        info.chunks.push_back({container::name_of(chunk.type), chunk.begin, chunk.end() - chunk.begin});
+    return info;
+}
+
+Result<std::string> explain(ByteView reel, const DecodeLimits& limits)
+{
+    MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, limits));
+    return container::explain(
+        file, [&](const Header& header, container::Tag type, container::Source payload, std::string& lines) -> Status {
+            if (type != container::type::segm) return Ok{};
+            MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
+            return codec->explain(payload, limits, lines);
+        });
+}
+
+Status check_reel(ByteView reel, const DecodeOptions& options)
+{
+    MESHREEL_TRY(const Animation animation, decode(reel, options));
+    return Ok{};
+}
+
+} // namespace meshreel
