@@ -44,3 +44,20 @@ INSTANTIATE_TEST_SUITE_P(Data, RealSequence,
                                          Counts{"snake", 9179, 18354, 134}, Counts{"dolphin", 4012, 8000, 101},
                                          Counts{"bone", 754, 1504, 400}),
                          [](const auto& made) { return made.param.name; });
+
+TEST(RealFile, TheQuakeModelsAreReadWithTheirCounts)
+{
+    if (!std::filesystem::exists(data + "files/sydney.md2")) GTEST_SKIP() << "no data beside the project";
+    const auto md2 = load(data + "files/sydney.md2");
+    ASSERT_TRUE(md2.ok()) << why(md2);
+    EXPECT_EQ(md2->vertex_count, 342u);
+    EXPECT_EQ(md2->triangles.size(), 679u);
+    EXPECT_EQ(md2->frame_count(), 198u);
+    LoadOptions options;
+    options.clip = "taunt";
+    EXPECT_EQ(load(data + "files/sydney.md2", options)->frame_count(), 17u);
+    const auto md3 = load(data + "files/sarge_upper.md3");
+    ASSERT_TRUE(md3.ok()) << why(md3);
+    EXPECT_EQ(md3->frame_count(), 155u);
+    EXPECT_GT(md3->vertex_count, 300u);
+}

@@ -46,6 +46,14 @@ void tell(const SaveOptions& options, std::string sentence)
     if (options.warn) options.warn(std::move(sentence));
 }
 
+LoadOptions named_warnings(const LoadOptions& options, const std::string& file)
+{
+    LoadOptions named = options;
+    if (options.warn)
+        named.warn = [file, warn = options.warn](const std::string& sentence) { warn(file + ": " + sentence); };
+    return named;
+}
+
 void give_times(Animation& animation, const Selection& selection, const LoadOptions& options, double fallback_fps)
 {
     const double fps = options.fps > 0 ? options.fps : fallback_fps;

@@ -30,6 +30,9 @@ Result<Selection> select_frames(const FrameRange& range, std::uint64_t source_co
 void tell(const LoadOptions& options, std::string sentence);
 void tell(const SaveOptions& options, std::string sentence);
 
+/// The same options, each warning beginning with the file's name.
+LoadOptions named_warnings(const LoadOptions& options, const std::string& file);
+
 /// Times for a source that has none: frame i of the source at i / fps seconds, where fps is the option's or, with a
 /// warning, `fallback_fps`. meta.fps is the rate of the selected frames, or 0 where it was not given.
 void give_times(Animation& animation, const Selection& selection, const LoadOptions& options,

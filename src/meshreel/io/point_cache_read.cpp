@@ -69,9 +69,7 @@ Result<Animation> load_cache(const std::string& path, const LoadOptions& options
     mesh_options.frames = {0, 0, 1};
     MESHREEL_TRY(Animation mesh, load(options.mesh, mesh_options));
     MESHREEL_TRY(const Bytes bytes, read_file(path, options.limits));
-    LoadOptions named = options;
-    if (options.warn) named.warn = [&](std::string sentence) { options.warn(path + ": " + sentence); };
-    return in_file(parse(bytes, std::move(mesh), named), path);
+    return in_file(parse(bytes, std::move(mesh), named_warnings(options, path)), path);
 }
 
 struct Pc2Header {

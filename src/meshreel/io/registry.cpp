@@ -6,6 +6,8 @@
 #include "meshreel/base/text.h"
 #include "meshreel/io/gltf.h"
 #include "meshreel/io/io.h"
+#include "meshreel/io/md2.h"
+#include "meshreel/io/md3.h"
 #include "meshreel/io/obj.h"
 #include "meshreel/io/off.h"
 #include "meshreel/io/ply.h"
@@ -22,6 +24,8 @@ constexpr std::string_view pc2_extensions[] = {"pc2"};
 constexpr std::string_view mdd_extensions[] = {"mdd"};
 
 constexpr std::string_view gltf_extensions[] = {"glb", "gltf"};
+constexpr std::string_view md2_extensions[] = {"md2"};
+constexpr std::string_view md3_extensions[] = {"md3"};
 
 constexpr Format table[] = {
     {"obj", obj_extensions, "Wavefront OBJ, one file a frame", load_obj, save_obj},
@@ -29,6 +33,8 @@ constexpr Format table[] = {
     {"off", off_extensions, "Object File Format, one file a frame", load_off, save_off},
     {"pc2", pc2_extensions, "PointCache2, positions of a mesh, evenly spaced", load_pc2, save_pc2},
     {"mdd", mdd_extensions, "MDD, positions of a mesh, with times", load_mdd, save_mdd},
+    {"md2", md2_extensions, "Quake II model", load_md2, nullptr},
+    {"md3", md3_extensions, "Quake III model", load_md3, nullptr},
     {"gltf", gltf_extensions, "glTF 2.0 and GLB, skins and morph targets baked", load_gltf, save_gltf},
 };
 
