@@ -17,6 +17,7 @@ constexpr std::array table{
     Shape{"jelly", "a soft cube that falls, bounces and wobbles (elastic lattice)", 8, jelly},
     Shape{"swimmer", "a swimming fish: waves run down its body", 8, swimmer},
     Shape{"snake", "a snake crawling along its own track", 8, snake},
+    Shape{"walker", "a walking human figure, skinned over thirteen bones", 64, walker},
     Shape{"wave", "a standing wave on a sheet: exactly rank 1", 4, wave},
 };
 

@@ -41,7 +41,6 @@ void cut(Body& body, CornerId c, std::uint32_t middle)
     body.triangles[t][previous(c).value % 3] = middle;
     other[next(c).value % 3] = middle;
     body.triangles.push_back(other);
-    if (!body.group.empty()) body.group.push_back(std::uint32_t{body.group[t]});
 }
 
 /// One round: splits up to `count` of the longest edges, none of them in a common triangle.
@@ -132,10 +131,12 @@ Animation animation_of(const Body& body, const ShapeOptions& options)
         for (const auto& [u, v] : body.uv) uv.insert(uv.end(), {static_cast<float>(u), static_cast<float>(v)});
         animation.appearance.attributes.push_back({"uv0", Domain::vertex, Scalar::f32, 2, false, bytes_of(uv), {}});
     }
-    if (!body.group.empty())
-        animation.appearance.attributes.push_back(
-            {"group", Domain::triangle, Scalar::u32, 1, false, bytes_of(body.group), {}});
     return animation;
+}
+
+Attribute triangle_numbers(const char* name, const std::vector<std::uint32_t>& numbers)
+{
+    return {name, Domain::triangle, Scalar::u32, 1, false, bytes_of(numbers), {}};
 }
 
 } // namespace meshreel::shapes

@@ -16,7 +16,6 @@ struct Body {
     std::vector<std::array<double, 3>> points; ///< [V]
     std::vector<std::array<double, 2>> uv;     ///< [V], in [0, 1]; empty: none
     std::vector<Triangle> triangles;           ///< [T]
-    std::vector<std::uint32_t> group;          ///< [T] index of a group; empty: none
 };
 
 /// A flat grid of columns x rows vertices over [0, width] x [0, height] at z = 0, with UVs; its diagonals alternate.
@@ -33,7 +32,10 @@ GridSize grid_size(std::uint32_t vertices, double width, double height);
 /// spread: no triangle is split twice before every other has had its turn.
 void split_edges(Body& body, std::uint32_t vertices);
 
-/// An animation of that body with F frames to be filled: triangles, times, "uv0" and "group" where the body has them.
+/// An animation of that body with F frames to be filled: triangles, times, and "uv0" where the body has it.
 Animation animation_of(const Body& body, const ShapeOptions& options);
+
+/// An attribute with a number for each triangle: "group", "material".
+Attribute triangle_numbers(const char* name, const std::vector<std::uint32_t>& numbers);
 
 } // namespace meshreel::shapes

@@ -13,8 +13,8 @@ namespace meshreel::shapes {
 namespace {
 
 constexpr std::uint32_t cells = 4, nodes = cells + 1; ///< of the elastic lattice, along each axis
-constexpr double longest_step = 0.0025;               ///< seconds
-constexpr double softness = 1.2e-3;                   ///< compliance of the lattice's links
+constexpr double longest_step = 0.001;                ///< seconds
+constexpr double softness = 5e-4;                     ///< compliance of the lattice's links
 
 std::uint32_t node(std::uint32_t i, std::uint32_t j, std::uint32_t k)
 {
@@ -109,7 +109,7 @@ void throw_up(Particles& particles, std::uint64_t seed)
         p = {c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
         p = {p[0], c * p[1] - s * p[2], s * p[1] + c * p[2]};
         particles.velocity[i] = {drift - spin * p[1], spin * p[0], 0.0};
-        p[1] += 1.9;
+        p[1] += 1.6;
     }
 }
 
@@ -125,7 +125,7 @@ Animation jelly(const ShapeOptions& options)
 
     const std::vector<Vec> lattice = lattice_points();
     Particles::Settings settings;
-    settings.damping = 0.3;
+    settings.damping = 0.25;
     settings.friction = 0.15;
     Particles particles(lattice, lattice_links(lattice), {}, settings);
     throw_up(particles, options.seed);

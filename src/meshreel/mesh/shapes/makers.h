@@ -10,6 +10,7 @@ Animation cloth(const ShapeOptions& options);
 Animation jelly(const ShapeOptions& options);
 Animation swimmer(const ShapeOptions& options);
 Animation snake(const ShapeOptions& options);
+Animation walker(const ShapeOptions& options);
 Animation wave(const ShapeOptions& options);
 
 } // namespace meshreel::shapes
