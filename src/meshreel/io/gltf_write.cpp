@@ -40,7 +40,7 @@ Motion frame_motion(const Animation& animation)
 
 Motion pca_motion(const Animation& animation, const SaveOptions& options)
 {
-    constexpr double tolerance = 0.9999e-4; // 0.01 %, with room for the player's own rounding
+    constexpr double tolerance = 0.97e-4; // 0.01 %, with room for the rounding of base and modes
     Motion motion;
     const MatrixView<const float> frames{animation.positions.data(), animation.frame_count(),
                                          animation.vertex_count * 3ul};
@@ -50,7 +50,7 @@ Motion pca_motion(const Animation& animation, const SaveOptions& options)
     if (error > 1e-4)
         tell(options,
              concat(motion.modes.modes.rows, " modes leave an error of ", error * 100, " % of the body diagonal"));
-    motion.base = motion.modes.mean;
+    motion.base = motion.modes.base;
     motion.weights = std::move(motion.modes.weights);
     for (std::size_t k = 0; k < motion.weights.cols; ++k) motion.names.push_back(concat("mode_", k));
     return motion;

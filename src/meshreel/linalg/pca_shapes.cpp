@@ -82,7 +82,7 @@ void project(MatrixView<const float> frames, const Dense& U, ShapeModes& result,
     const Dense scaled = U.leftCols(static_cast<Index>(K)) *
                          U.leftCols(static_cast<Index>(K)).colwise().squaredNorm().cwiseInverse().asDiagonal();
     parallel_for(block_count(frames.cols), threads, [&](std::size_t b) {
-        const Dense M = scaled.transpose() * centred(frames, result.mean, b, {0, frames.rows});
+        const Dense M = scaled.transpose() * centred(frames, result.base, b, {0, frames.rows});
         for (Index k = 0; k < M.rows(); ++k)
             for (Index i = 0; i < M.cols(); ++i)
                 result.modes(static_cast<std::size_t>(k), b * block + static_cast<std::size_t>(i)) =
@@ -93,7 +93,7 @@ void project(MatrixView<const float> frames, const Dense& U, ShapeModes& result,
 /// The largest distance that the first K modes leave in block b.
 double block_error(MatrixView<const float> frames, const ShapeModes& result, std::size_t K, std::size_t b)
 {
-    Dense R = centred(frames, result.mean, b, {0, frames.rows});
+    Dense R = centred(frames, result.base, b, {0, frames.rows});
     const Index count = R.cols();
     using Floats = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const Floats> W(result.weights.values.data(), R.rows(), static_cast<Index>(result.weights.cols));
@@ -160,14 +160,41 @@ std::size_t fewest(MatrixView<const float> frames, const ShapeModes& result, con
     return high;
 }
 
+/// Moves and scales each mode's weights to [0, 1], and the base and the modes with them.
+void to_unit_range(ShapeModes& result, Threads threads)
+{
+    std::vector<double> lowest, range;
+    for (std::size_t k = 0; k < result.modes.rows; ++k) {
+        float low = result.weights(0, k), high = low;
+        for (std::size_t f = 0; f < result.weights.rows; ++f) {
+            low = std::min(low, result.weights(f, k));
+            high = std::max(high, result.weights(f, k));
+        }
+        lowest.push_back(low);
+        range.push_back(static_cast<double>(high) - low);
+        for (std::size_t f = 0; f < result.weights.rows; ++f)
+            result.weights(f, k) = static_cast<float>((static_cast<double>(result.weights(f, k)) - low) / range[k]);
+    }
+    parallel_for(block_count(result.base.size()), threads, [&](std::size_t b) {
+        for (std::size_t i = b * block; i < std::min(result.base.size(), (b + 1) * block); ++i) {
+            double moved = result.base[i];
+            for (std::size_t k = 0; k < result.modes.rows; ++k) {
+                moved += lowest[k] * static_cast<double>(result.modes(k, i));
+                result.modes(k, i) = static_cast<float>(range[k] * static_cast<double>(result.modes(k, i)));
+            }
+            result.base[i] = static_cast<float>(moved);
+        }
+    });
+}
+
 } // namespace
 
 ShapeModes pca_of_shapes(MatrixView<const float> frames, const ShapeOptions& options)
 {
     ShapeModes result;
-    result.mean = mean_shape(frames, options.threads);
+    result.base = mean_shape(frames, options.threads);
     report(options.progress, "correlating frames", 0.0);
-    const Eigen::SelfAdjointEigenSolver<Dense> solver(gram(frames, result.mean, options.threads));
+    const Eigen::SelfAdjointEigenSolver<Dense> solver(gram(frames, result.base, options.threads));
     const Eigen::VectorXd falling = solver.eigenvalues().reverse();
     Dense U = solver.eigenvectors().rowwise().reverse();
     const std::size_t most = options.modes > 0 ? options.modes : enough(falling, options.tolerance);
@@ -181,6 +208,7 @@ ShapeModes pca_of_shapes(MatrixView<const float> frames, const ShapeOptions& opt
     result.modes = Matrix<float>(K, frames.cols);
     project(frames, U, result, options.threads);
     if (options.modes == 0) keep(result, fewest(frames, result, options));
+    to_unit_range(result, options.threads);
     result.largest_error = error_with(frames, result, result.modes.rows, options.threads);
     return result;
 }

@@ -1,4 +1,4 @@
-/// Principal component analysis of the frames of an animation: a mean shape, modes, and a weight a frame and mode.
+/// Principal component analysis of the frames of an animation: a base shape, modes, and a weight a frame and mode.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,11 +11,12 @@
 
 namespace meshreel::linalg {
 
-/// frame f = mean + sum_k weights(f, k) modes(k, .). n = 3N, N the number of vertices.
+/// frame f = base + sum_k weights(f, k) modes(k, .). n = 3N, N the number of vertices. Weights lie in [0, 1], because
+/// players that know sliders cut off what lies outside: the base is the mean shape moved along the modes to their ends.
 struct ShapeModes {
-    std::vector<float> mean;    ///< [n]
+    std::vector<float> base;    ///< [n]
     Matrix<float> modes;        ///< [K x n], model units; the most important first
-    Matrix<float> weights;      ///< [F x K], the largest of each mode is 1 in absolute value
+    Matrix<float> weights;      ///< [F x K], each mode's smallest is 0, its largest 1
     double largest_error = 0.0; ///< the largest distance of a vertex from where it should be, model units
 };
 
