@@ -53,20 +53,6 @@ std::vector<double> morphed(const GltfVertices& vertices, const std::vector<doub
     return positions;
 }
 
-/// sum_j w_j G_j B_j; false where no joint moves the vertex.
-bool blend(const GltfVertices& vertices, std::size_t v, const std::vector<Affine>& joints, Affine& blended)
-{
-    blended.m.fill(0);
-    bool moved = false;
-    for (std::size_t i = v * vertices.influences; i < (v + 1) * vertices.influences; ++i) {
-        const double weight = vertices.weights[i];
-        if (weight == 0) continue;
-        moved = true;
-        for (std::size_t k = 0; k < 12; ++k) blended.m[k] += weight * joints[vertices.joints[i]].m[k];
-    }
-    return moved;
-}
-
 void apply(const GltfClip& clip, double time_s, std::vector<Trs>& local, std::vector<std::vector<double>>& weights)
 {
     for (const GltfChannel& channel : clip.channels) {
@@ -91,6 +77,19 @@ void apply(const GltfClip& clip, double time_s, std::vector<Trs>& local, std::ve
 }
 
 } // namespace
+
+bool blend(const GltfVertices& vertices, std::size_t v, const std::vector<Affine>& joints, Affine& blended)
+{
+    blended.m.fill(0);
+    bool moved = false;
+    for (std::size_t i = v * vertices.influences; i < (v + 1) * vertices.influences; ++i) {
+        const double weight = vertices.weights[i];
+        if (weight == 0) continue;
+        moved = true;
+        for (std::size_t k = 0; k < 12; ++k) blended.m[k] += weight * joints[vertices.joints[i]].m[k];
+    }
+    return moved;
+}
 
 Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene,
                                 const std::function<void(std::string)>& warn)

@@ -36,8 +36,15 @@ struct GltfPose {
 /// clip may be null: the rest pose.
 GltfPose pose_at(const GltfScene& scene, const GltfClip* clip, double time_s);
 
+/// sum_j w_j G_j B_j of vertex v; false where no joint moves it.
+bool blend(const GltfVertices& vertices, std::size_t v, const std::vector<Affine>& joints, Affine& blended);
+
 /// Positions of all vertices, world space, rounded once. out: [V x 3].
 /// @source glTF 2.0, 3.7.3.3: p = sum_j w_j G_j B_j (rest + sum_k m_k target_k)
 void bake(const GltfScene& scene, const GltfBody& body, const GltfPose& pose, std::span<float> out);
+
+/// Turns normals and tangents of the first frame's pose into world space, as unit vectors in float32. Vertices that the
+/// pose only moves or scales alike in all directions keep theirs bit for bit; so do all where every vertex does.
+void turn_normals(const GltfScene& scene, const GltfBody& body, const GltfPose& pose, Animation& animation);
 
 } // namespace meshreel::io

@@ -87,6 +87,7 @@ Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
     MESHREEL_CHECK(document.budget->take(animation.frame_count() * animation.vertex_count * 12,
                                          document.json().member("animations")));
     animation.positions.resize(animation.frame_count() * animation.vertex_count * 3);
+    turn_normals(scene, body, pose_at(scene, &clip, animation.times_s[0]), animation);
     for (std::size_t f = 0; f < animation.frame_count(); ++f) {
         report(options.progress, "baking", static_cast<double>(f) / static_cast<double>(animation.frame_count()));
         bake(scene, body, pose_at(scene, &clip, animation.times_s[f]), animation.frame(f));

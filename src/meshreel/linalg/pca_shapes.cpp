@@ -171,7 +171,7 @@ void to_unit_range(ShapeModes& result, Threads threads)
             high = std::max(high, result.weights(f, k));
         }
         lowest.push_back(low);
-        range.push_back(static_cast<double>(high) - low);
+        range.push_back(high > low ? static_cast<double>(high) - low : 1.0); // a constant mode goes into the base
         for (std::size_t f = 0; f < result.weights.rows; ++f)
             result.weights(f, k) = static_cast<float>((static_cast<double>(result.weights(f, k)) - low) / range[k]);
     }
