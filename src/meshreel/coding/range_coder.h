@@ -58,10 +58,16 @@ public:
 
     bool bit(Bit& model, bool wanted)
     {
-        const std::uint32_t bound = (range_ >> Bit::precision) * model.one();
+        decide(model.one(), wanted);
+        model.learn(wanted);
+        return wanted;
+    }
+    /// A decision whose probability of a one, 1 .. 2^15 - 1 in 2^-15, somebody else keeps.
+    bool decide(std::uint32_t one, bool wanted)
+    {
+        const std::uint32_t bound = (range_ >> Bit::precision) * one;
         low_ += wanted ? 0 : bound;
         range_ = wanted ? bound : range_ - bound;
-        model.learn(wanted);
         while (range_ < least_range) shift();
         return wanted;
     }
@@ -76,6 +82,8 @@ public:
         }
         return value;
     }
+    /// Bytes written so far; what is still inside is at most four more.
+    std::size_t size() const { return bytes_.size(); }
     /// Ends the stream: the shortest bytes that, followed by zeros, decode to what was written.
     Bytes finish()
     {
@@ -117,11 +125,16 @@ public:
 
     bool bit(Bit& model, bool = false)
     {
-        const std::uint32_t bound = (range_ >> Bit::precision) * model.one();
+        const bool one = decide(model.one());
+        model.learn(one);
+        return one;
+    }
+    bool decide(std::uint32_t probability, bool = false)
+    {
+        const std::uint32_t bound = (range_ >> Bit::precision) * probability;
         const bool one = code_ < bound;
         code_ -= one ? 0 : bound;
         range_ = one ? bound : range_ - bound;
-        model.learn(one);
         refill();
         return one;
     }

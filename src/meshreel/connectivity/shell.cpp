@@ -16,7 +16,7 @@ namespace {
 using coding::Bit;
 using coding::NumberModel;
 
-constexpr std::uint32_t most_closed = 4; ///< closing the holes of T triangles makes at most 4T of them
+constexpr std::uint32_t closed_ratio = 4; ///< closing the holes of T triangles makes at most 4T of them
 
 /// Predicts the next symbol from the two before it and from how many triangles the gate's right vertex has seen as such.
 class SymbolModel {
@@ -54,12 +54,14 @@ class ShellCoder {
 public:
     ShellCoder(Coder& coder, Shell& shell) : coder_(coder), shell_(shell) {}
 
-    Status run()
+    /// @param most_closed  upper limit of the closed mesh's triangles.
+    Status run(std::uint64_t most_closed)
     {
         std::uint32_t& closed = shell_.string.triangle_count;
         const std::uint64_t holes = size_.code(coder_, closed - shell_.triangle_count);
-        if (holes > std::uint64_t{most_closed - 1} * shell_.triangle_count)
+        if (holes > std::uint64_t{closed_ratio - 1} * shell_.triangle_count)
             return bad_input("more triangles than closing holes can make", "closed_triangle_count");
+        MESHREEL_CHECK(within(shell_.triangle_count + holes, most_closed, "closed_triangle_count"));
         closed = shell_.triangle_count + static_cast<std::uint32_t>(holes);
         MESHREEL_CHECK(merges());
         MESHREEL_CHECK(symbols());
@@ -246,14 +248,14 @@ Result<std::vector<Triangle>> triangles_of(const Shell& shell)
 void write(coding::RangeEncoder& coder, const Shell& shell)
 {
     Shell same = shell;
-    (void)ShellCoder(coder, same).run();
+    (void)ShellCoder(coder, same).run(same.string.triangle_count);
 }
 
-Result<Shell> read(coding::RangeDecoder& coder, std::uint32_t triangle_count)
+Result<Shell> read(coding::RangeDecoder& coder, std::uint32_t triangle_count, std::uint64_t most_closed)
 {
     Shell shell;
     shell.triangle_count = triangle_count;
-    MESHREEL_CHECK(ShellCoder(coder, shell).run());
+    MESHREEL_CHECK(ShellCoder(coder, shell).run(most_closed));
     return shell;
 }
 

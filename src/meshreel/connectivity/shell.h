@@ -41,7 +41,8 @@ Result<std::vector<Triangle>> triangles_of(const Shell& shell);
 
 /// @param shell.triangle_count is known to both sides.
 void write(coding::RangeEncoder& coder, const Shell& shell);
-/// @fails bad_input: cut, malformed.  Memory: 100 bytes a triangle, which the caller has checked.
-Result<Shell> read(coding::RangeDecoder& coder, std::uint32_t triangle_count);
+/// @param most_closed  triangles that the closed mesh may have, holes filled; 70 bytes each are allocated.
+/// @fails bad_input: cut, malformed, more than most_closed.
+Result<Shell> read(coding::RangeDecoder& coder, std::uint32_t triangle_count, std::uint64_t most_closed);
 
 } // namespace meshreel::connectivity
