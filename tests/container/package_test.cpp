@@ -90,6 +90,37 @@ TEST(Attributes, survive_degenerate_and_repeated_triangles)
     expect_same(trip(vertices, {4, triangles}), vertices);
 }
 
+TEST(Attributes, whose_values_repeat_store_each_once)
+{
+    const auto triangles = grid(40);
+    Attribute normals{"normal", Domain::vertex, Scalar::f32, 3, false, {}, {}};
+    const Bytes few = random_bytes(12 * 50, 1);
+    Random random(2);
+    for (int i = 0; i < 1600; ++i) {
+        const auto from = few.begin() + static_cast<std::ptrdiff_t>(12 * random.below(50));
+        normals.values.insert(normals.values.end(), from, from + 12);
+    }
+    const AttributeChunk chunk = pack_attribute(normals, {1600, triangles});
+    EXPECT_TRUE(chunk.repeated);
+    EXPECT_EQ(chunk.distinct_count, 50u);
+    EXPECT_LT(write_fields(chunk)->size(), squeeze(normals.values).data.size());
+    expect_same(trip(normals, {1600, triangles}), normals);
+}
+
+TEST(Attributes, with_places_beyond_the_distinct_values_are_refused)
+{
+    const std::vector<Triangle> none;
+    AttributeChunk chunk;
+    chunk.head = {"x", Domain::vertex, Scalar::u8, 1, false, {}, {}};
+    chunk.value_count = 2;
+    chunk.repeated = true;
+    chunk.distinct_count = 1;
+    chunk.places = pack_words(std::vector<std::uint32_t>{0, 1}, {2});
+    chunk.values = pack_words(std::vector<std::uint32_t>{7}, {1, 1, 1});
+    Budget budget(1000);
+    EXPECT_EQ(unpack_attribute(chunk, {2, none}, budget).error().sentence(), "places: 1 is beyond the 1 values");
+}
+
 TEST(Attributes, on_a_smooth_surface_are_far_smaller_than_plain_zstd)
 {
     const auto triangles = grid(60);

@@ -1,5 +1,8 @@
 /// Attribute tables: the numbers of a table, and the faces along which they are predicted.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <numeric>
+
 #include "meshreel/base/text.h"
 #include "meshreel/container/package.h"
 
@@ -29,18 +32,59 @@ Bytes bytes_of(const std::vector<std::uint32_t>& words, std::size_t width)
     return bytes;
 }
 
-/// Which values form triangles, if the domain has any.
-std::vector<Triangle> faces_of(Domain domain, const std::vector<std::uint32_t>& indices, const MeshShape& mesh)
+/// Each different entry of a table once, in the order of first occurrence, and where it stands.
+struct Distinct {
+    std::vector<std::uint32_t> words;  ///< of the different entries
+    std::vector<std::uint32_t> places; ///< [value_count]
+    std::uint32_t count = 0;
+};
+
+Distinct distinct_of(const std::vector<std::uint32_t>& words, std::size_t components)
 {
-    if (domain == Domain::triangle) return {};
+    const auto entry = [&](std::uint32_t i) { return words.begin() + static_cast<std::ptrdiff_t>(i * components); };
+    const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(components);
+    std::vector<std::uint32_t> sorted(words.size() / components);
+    std::iota(sorted.begin(), sorted.end(), 0u);
+    const auto compare = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [x, y] = std::mismatch(entry(a), entry(a) + width, entry(b));
+        return x == entry(a) + width ? a < b : *x < *y;
+    };
+    std::sort(sorted.begin(), sorted.end(), compare);
+    std::vector<std::uint32_t> first(sorted.size()); // of the entries equal to each
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const bool same = i > 0 && std::equal(entry(sorted[i]), entry(sorted[i]) + width, entry(sorted[i - 1]));
+        first[sorted[i]] = same ? first[sorted[i - 1]] : sorted[i];
+    }
+    Distinct distinct;
+    distinct.places.resize(sorted.size());
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+        distinct.places[i] = first[i] == i ? distinct.count++ : distinct.places[first[i]];
+        if (first[i] == i) distinct.words.insert(distinct.words.end(), entry(i), entry(i) + width);
+    }
+    return distinct;
+}
+
+/// Which values form triangles, if the domain has any. Elements without a value make faces of value 2^32 - 1.
+std::vector<Triangle> faces_of(const Attribute& attribute, const MeshShape& mesh)
+{
+    if (attribute.domain == Domain::triangle) return {};
+    const std::vector<std::uint32_t>& indices = attribute.indices;
     std::vector<Triangle> faces(mesh.triangles.size());
     for (std::size_t t = 0; t < faces.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t element =
-                domain == Domain::vertex ? mesh.triangles[t][i] : static_cast<std::uint32_t>(3 * t + i);
+            const bool vertex = attribute.domain == Domain::vertex;
+            const std::uint32_t element = vertex ? mesh.triangles[t][i] : static_cast<std::uint32_t>(3 * t + i);
             faces[t][i] = indices.empty() ? element : indices[element];
         }
     return faces;
+}
+
+/// The faces among distinct values.
+void move_faces(std::vector<Triangle>& faces, const std::vector<std::uint32_t>& places)
+{
+    for (Triangle& face : faces)
+        for (std::uint32_t& value : face)
+            if (value < places.size()) value = places[value];
 }
 
 WordShape value_shape(const Attribute& head, std::uint64_t count)
@@ -75,6 +119,47 @@ Result<T> under(std::string_view name, Result<T> result)
     return error;
 }
 
+void pack_values(AttributeChunk& chunk, const Attribute& attribute, std::vector<Triangle> faces)
+{
+    const std::vector<std::uint32_t> words = words_of(attribute.values, scalar_size(attribute.type));
+    chunk.values = pack_words(words, value_shape(attribute, chunk.value_count), value_context(attribute, faces));
+    const Distinct distinct = distinct_of(words, attribute.components);
+    if (distinct.count == chunk.value_count) return;
+    move_faces(faces, distinct.places);
+    WordTable places = pack_words(distinct.places, {chunk.value_count});
+    WordTable values =
+        pack_words(distinct.words, value_shape(attribute, distinct.count), value_context(attribute, faces));
+    constexpr std::size_t fields_more = 8;
+    if (places.bytes.data.size() + values.bytes.data.size() + fields_more >= chunk.values.bytes.data.size()) return;
+    chunk.repeated = true;
+    chunk.distinct_count = distinct.count;
+    chunk.places = std::move(places);
+    chunk.values = std::move(values);
+}
+
+/// The words of all values, from the distinct ones.
+Result<std::vector<std::uint32_t>> unpack_values(const AttributeChunk& chunk, std::vector<Triangle> faces,
+                                                 Budget& budget)
+{
+    const WordShape shape = value_shape(chunk.head, chunk.value_count);
+    if (!chunk.repeated)
+        return under("values", unpack_words(chunk.values, shape, value_context(chunk.head, faces), budget));
+    MESHREEL_TRY(const std::vector<std::uint32_t> places,
+                 under("places", unpack_words(chunk.places, {chunk.value_count}, {}, budget)));
+    for (const std::uint32_t place : places)
+        if (place >= chunk.distinct_count)
+            return bad_input(concat(place, " is beyond the ", chunk.distinct_count, " values"), "places");
+    move_faces(faces, places);
+    MESHREEL_TRY(const std::vector<std::uint32_t> distinct,
+                 under("values", unpack_words(chunk.values, value_shape(chunk.head, chunk.distinct_count),
+                                              value_context(chunk.head, faces), budget)));
+    MESHREEL_CHECK(budget.take(shape.words() * 4, "values"));
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(shape.words()));
+    for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = distinct[places[i / shape.components] * std::size_t{shape.components} + i % shape.components];
+    return words;
+}
+
 } // namespace
 
 AttributeChunk pack_attribute(const Attribute& attribute, const MeshShape& mesh)
@@ -86,9 +171,7 @@ AttributeChunk pack_attribute(const Attribute& attribute, const MeshShape& mesh)
     if (chunk.indexed)
         chunk.indices =
             pack_words(attribute.indices, {attribute.indices.size()}, index_context(attribute.domain, mesh));
-    const std::vector<Triangle> faces = faces_of(attribute.domain, attribute.indices, mesh);
-    const std::vector<std::uint32_t> words = words_of(attribute.values, scalar_size(attribute.type));
-    chunk.values = pack_words(words, value_shape(attribute, chunk.value_count), value_context(attribute, faces));
+    pack_values(chunk, attribute, faces_of(attribute, mesh));
     return chunk;
 }
 
@@ -104,10 +187,7 @@ Result<Attribute> unpack_attribute(const AttributeChunk& chunk, const MeshShape&
         return bad_input(concat(chunk.value_count, " values for ", elements, " elements"), "value_count");
     }
     MESHREEL_CHECK(budget.take(mesh.triangles.size() * 12ull, "values"));
-    const std::vector<Triangle> faces = faces_of(attribute.domain, attribute.indices, mesh);
-    MESHREEL_TRY(const std::vector<std::uint32_t> words,
-                 under("values", unpack_words(chunk.values, value_shape(attribute, chunk.value_count),
-                                              value_context(attribute, faces), budget)));
+    MESHREEL_TRY(const std::vector<std::uint32_t> words, unpack_values(chunk, faces_of(attribute, mesh), budget));
     attribute.values = bytes_of(words, scalar_size(attribute.type));
     return attribute;
 }

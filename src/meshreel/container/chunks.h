@@ -77,6 +77,9 @@ struct MetaChunk {
 struct AttributeChunk {
     Attribute head; ///< its values and indices stay empty
     std::uint64_t value_count = 0;
+    bool repeated = false;
+    std::uint64_t distinct_count = 0;
+    WordTable places;
     WordTable values;
     bool indexed = false;
     WordTable indices;
@@ -91,6 +94,11 @@ struct AttributeChunk {
         io.flag("normalized", head.normalized, "integers stand for [0, 1] or [-1, 1]");
         io.varint("value_count", value_count, up_to(Limit::memory),
                   "values in the table; as many as elements if not indexed");
+        io.flag("repeated", repeated, "each different value is stored once, and places says which is where");
+        io.when(repeated, "repeated", [&] {
+            io.varint("distinct_count", distinct_count, up_to(Limit::memory), "values stored");
+            io.part("places", places);
+        });
         io.part("values", values);
         io.flag("indexed", indexed, "elements name their value by an index; else element i has value i");
         io.when(indexed, "indexed", [&] { io.part("indices", indices); });

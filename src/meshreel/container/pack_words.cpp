@@ -1,5 +1,7 @@
 /// The search for the smallest way to pack a table; encoder side.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "meshreel/base/check.h"
 #include "meshreel/container/word_walk.h"
 
@@ -93,6 +95,10 @@ public:
             walk_guesses<true>(shape_, &context_, numbers, residuals);
             try_layouts(Prediction::mesh, residuals);
         }
+        if (shape_.components == 1 && shape_.width == 4 && !context_.floats) {
+            walk_fresh<true>(numbers, residuals);
+            try_layouts(Prediction::fresh, residuals);
+        }
         if (context_.corners != nullptr && shape_.width == 4 && numbers.size() == context_.corners->size() * 3) {
             CornerWalk walk(context_);
             walk.run<true>(numbers, residuals);
@@ -100,16 +106,15 @@ public:
         }
     }
 
-    /// The best by a quick zstd, packed by a thorough one.
+    /// The best of those that a quick zstd likes best, packed by a thorough one.
     WordTable best()
     {
-        Attempt* best = nullptr;
-        for (Attempt* attempt : {&first_, &second_}) {
-            if (attempt->bytes.empty()) continue;
-            attempt->table.bytes = squeeze(std::move(attempt->bytes));
-            if (best == nullptr || attempt->table.bytes.data.size() < best->table.bytes.data.size()) best = attempt;
+        WordTable* best = nullptr;
+        for (Attempt& attempt : kept_) {
+            attempt.table.bytes = squeeze(std::move(attempt.bytes));
+            if (best == nullptr || attempt.table.bytes.data.size() < best->bytes.data.size()) best = &attempt.table;
         }
-        return best == nullptr ? WordTable{} : std::move(best->table);
+        return std::move(*best);
     }
 
 private:
@@ -128,17 +133,19 @@ private:
     }
     void keep(Attempt attempt)
     {
-        if (first_.bytes.empty() || attempt.size < first_.size) std::swap(first_, attempt);
-        if (!attempt.bytes.empty() && (second_.bytes.empty() || attempt.size < second_.size))
-            std::swap(second_, attempt);
+        const auto at =
+            std::find_if(kept_.begin(), kept_.end(), [&](const Attempt& other) { return attempt.size < other.size; });
+        kept_.insert(at, std::move(attempt));
+        if (kept_.size() > most_kept) kept_.pop_back();
     }
 
-    static constexpr int quick_level = 5;
+    static constexpr int quick_level = 9;
+    static constexpr std::size_t most_kept = 3;
     WordShape shape_;
     WordContext context_;
     Mapping mapping_ = Mapping::bits;
     double scale_ = 1.0;
-    Attempt first_, second_;
+    std::vector<Attempt> kept_; ///< smallest first
 };
 
 } // namespace

@@ -12,6 +12,8 @@ public:
     explicit Budget(std::uint64_t bytes) : left_(bytes) {}
     /// Takes `bytes` off. @fails bad_input: more than is left.
     Status take(std::uint64_t bytes, std::string_view field);
+    /// Whether `bytes` that are given back at once would fit. @fails bad_input: they would not.
+    Status lend(std::uint64_t bytes, std::string_view field) const;
 
 private:
     std::uint64_t left_;

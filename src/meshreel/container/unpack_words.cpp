@@ -38,6 +38,17 @@ void map_back(const WordTable& table, Words& words)
         for (std::uint32_t& word : words) word = bits_of(scaled_float(word, table.scale));
 }
 
+/// What a walk along the mesh needs while it lasts: sides and mates of triangles, guesses or last indices of entries.
+std::uint64_t walk_memory(const WordTable& table, const WordShape& shape, const WordContext& context)
+{
+    constexpr std::uint64_t a_triangle = 3 * (16 + 4), an_entry = 24;
+    if (table.prediction == WordTable::Prediction::mesh)
+        return context.faces->size() * a_triangle + shape.count * an_entry;
+    if (table.prediction == WordTable::Prediction::corner)
+        return context.corners->size() * a_triangle + context.vertex_count * 8;
+    return 0;
+}
+
 /// Refuses ways of coding that need what this table does not have.
 Status check_table(const WordTable& table, const WordShape& shape, const WordContext& context)
 {
@@ -49,6 +60,8 @@ Status check_table(const WordTable& table, const WordShape& shape, const WordCon
     const bool corners = context.corners != nullptr && shape.words() == context.corners->size() * 3;
     if (table.prediction == Prediction::corner && !(corners && shape.width == 4))
         return bad_input("not a table of one index a corner", "prediction");
+    if (table.prediction == Prediction::fresh && !(shape.components == 1 && shape.width == 4))
+        return bad_input("not a table of numbers", "prediction");
     return Ok{};
 }
 
@@ -63,6 +76,7 @@ Result<std::vector<std::uint32_t>> unpack_words(const WordTable& table, const Wo
     MESHREEL_CHECK(check_table(table, shape, context));
     MESHREEL_TRY(const Bytes bytes, unsqueeze(table.bytes, shape.words() * shape.width, budget));
     MESHREEL_CHECK(budget.take(shape.words() * 8, "count"));
+    MESHREEL_CHECK(budget.lend(walk_memory(table, shape, context), "prediction"));
     Words residuals = words_in(bytes, shape, table.planes);
     if (table.prediction == Prediction::none) {
         map_back(table, residuals);
@@ -71,6 +85,8 @@ Result<std::vector<std::uint32_t>> unpack_words(const WordTable& table, const Wo
     Words words(residuals.size());
     if (table.prediction == Prediction::corner)
         CornerWalk(context).run<false>(words, residuals);
+    else if (table.prediction == Prediction::fresh)
+        walk_fresh<false>(words, residuals);
     else
         walk_guesses<false>(shape, table.prediction == Prediction::mesh ? &context : nullptr, words, residuals);
     map_back(table, words);

@@ -14,11 +14,15 @@ constexpr std::uint64_t block_size = 128u << 10, least_block = 4;
 
 } // namespace
 
+Status Budget::lend(std::uint64_t bytes, std::string_view field) const
+{
+    if (bytes <= left_) return Ok{};
+    return bad_input(concat(bytes, " bytes do not fit in what the memory limit leaves, ", left_), std::string(field));
+}
+
 Status Budget::take(std::uint64_t bytes, std::string_view field)
 {
-    if (bytes > left_)
-        return bad_input(concat(bytes, " bytes do not fit in what the memory limit leaves, ", left_),
-                         std::string(field));
+    MESHREEL_CHECK(lend(bytes, field));
     left_ -= bytes;
     return Ok{};
 }

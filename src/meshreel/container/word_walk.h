@@ -81,6 +81,21 @@ void walk_guesses(const WordShape& shape, const WordContext* mesh, std::span<std
     }
 }
 
+/// Prediction::fresh. Numbers of things met before or for the first time: 0 is the lowest number above all so far, r the
+/// number r below it. For entries of one 4-byte word.
+template <bool Writes>
+void walk_fresh(std::span<std::uint32_t> words, std::span<std::uint32_t> residuals)
+{
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if constexpr (Writes)
+            residuals[i] = next - words[i];
+        else
+            words[i] = next - residuals[i];
+        if (words[i] >= next && words[i] != nothing) next = words[i] + 1;
+    }
+}
+
 /// Prediction::corner. The index of a corner is most often the one that the same vertex has in the triangle across an
 /// edge, or had last: residual 0. Else the first one never used: 1. Else 2 + the folded difference to the one before.
 class CornerWalk {

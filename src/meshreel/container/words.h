@@ -25,7 +25,7 @@ struct WordShape {
 /// How a table was coded.
 struct WordTable {
     enum class Mapping : std::uint8_t { bits, ordered, scaled } mapping = Mapping::bits;
-    enum class Prediction : std::uint8_t { none, previous, mesh, corner } prediction = Prediction::none;
+    enum class Prediction : std::uint8_t { none, previous, mesh, corner, fresh } prediction = Prediction::none;
     double scale = 1.0;
     bool planes = false;
     Squeezed bytes;
@@ -39,9 +39,9 @@ struct WordTable {
             io.f64("scale", scale, {1.0, 0x1.0p40},
                    "of signed word n the float is n / scale, and -(-1 - n) / scale where n < 0; f64, then f32");
         });
-        io.choice(
-            "prediction", prediction, {"none", "previous", "mesh", "corner"},
-            "what a word is a residual of: nothing; the entry before it; a parallelogram; the vertex' last index");
+        io.choice("prediction", prediction, {"none", "previous", "mesh", "corner", "fresh"},
+                  "what a word is a residual of: nothing; the entry before; a parallelogram; the vertex' last index; "
+                  "the highest so far + 1");
         io.flag("planes", planes, "bytes of equal weight stand together, one component after the other");
         io.part("bytes", bytes);
     }
