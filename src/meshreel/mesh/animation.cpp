@@ -14,10 +14,14 @@ namespace {
 
 Status validate_triangles(const Animation& animation)
 {
+    if (animation.triangles.size() > CornerId::none / 3)
+        return bad_input(concat(animation.triangles.size(), " triangles have more corners than 32 bits count"),
+                         "triangles");
     for (std::size_t t = 0; t < animation.triangles.size(); ++t)
         for (std::uint32_t v : animation.triangles[t])
             if (v >= animation.vertex_count)
-                return bad_input(concat("triangle ", t, " names vertex ", v, ", but there are ", animation.vertex_count),
+                return bad_input(concat("triangle ", t, " names vertex ", v, ", but there are ", animation.vertex_count,
+                                        " vertices"),
                                  "triangles");
     return Ok{};
 }
@@ -27,7 +31,8 @@ Status validate_positions(const Animation& animation)
     const std::size_t frame_size = animation.vertex_count * 3ul;
     for (std::size_t i = 0; i < animation.positions.size(); ++i)
         if (!std::isfinite(animation.positions[i]))
-            return bad_input(concat("frame ", i / frame_size, ", vertex ", i % frame_size / 3, ", ", std::string(1, "xyz"[i % 3]), " is ",
+            return bad_input(concat("frame ", i / frame_size, ", vertex ", i % frame_size / 3, ", ",
+                                    std::string(1, "xyz"[i % 3]), " is ",
                                     std::isnan(animation.positions[i]) ? "not a number" : "infinite"),
                              "positions");
     return Ok{};
@@ -50,17 +55,52 @@ std::size_t element_count(const Animation& animation, Domain domain)
     return animation.triangles.size() * (domain == Domain::corner ? 3 : 1);
 }
 
+/// The number that value i of a u32 attribute stands for.
+std::uint32_t number_at(const Attribute& attribute, std::size_t i)
+{
+    std::uint32_t number = 0;
+    for (std::size_t byte = 0; byte < 4; ++byte) number |= std::uint32_t{attribute.values[4 * i + byte]} << (8 * byte);
+    return number;
+}
+
+/// "material" and "group": one u32 a triangle, the number of a name or none.
+Status validate_numbers(const Attribute& attribute, std::size_t name_count)
+{
+    if (attribute.domain != Domain::triangle || attribute.type != Scalar::u32 || attribute.components != 1)
+        return bad_input("must be one 32-bit number a triangle", attribute.name);
+    for (std::size_t i = 0; i < attribute.value_count(); ++i) {
+        const std::uint32_t number = number_at(attribute, i);
+        if (number >= name_count && number != TriangleId::none)
+            return bad_input(concat("number ", number, " is beyond the ", name_count, " names"), attribute.name);
+    }
+    return Ok{};
+}
+
 Status validate_attribute(const Animation& animation, const Attribute& attribute)
 {
     const std::size_t value_size = scalar_size(attribute.type) * attribute.components;
-    if (attribute.components < 1 || attribute.components > 16 || attribute.values.size() % value_size != 0)
+    if (attribute.components < 1 || attribute.components > 16)
+        return bad_input(concat(int{attribute.components}, " numbers a value, but 1 to 16 are possible"),
+                         attribute.name);
+    if (attribute.values.size() % value_size != 0)
         return bad_input("its values are not a whole number of components", attribute.name);
     const std::size_t elements = element_count(animation, attribute.domain);
     const std::size_t entries = attribute.indices.empty() ? attribute.value_count() : attribute.indices.size();
     if (entries != elements) return bad_input(concat(entries, " entries for ", elements, " elements"), attribute.name);
     for (std::uint32_t index : attribute.indices)
         if (index != VertexId::none && index >= attribute.value_count())
-            return bad_input(concat("index ", index, " is beyond its ", attribute.value_count(), " values"), attribute.name);
+            return bad_input(concat("index ", index, " is beyond its ", attribute.value_count(), " values"),
+                             attribute.name);
+    if (attribute.name == "material") return validate_numbers(attribute, animation.appearance.materials.size());
+    if (attribute.name == "group") return validate_numbers(attribute, animation.appearance.groups.size());
+    return Ok{};
+}
+
+Status validate_metadata(const Metadata& meta)
+{
+    if (!(meta.fps >= 0.0) || !std::isfinite(meta.fps)) return bad_input("is neither unknown (0) nor above 0", "fps");
+    if (!(meta.metres_per_unit >= 0.0) || !std::isfinite(meta.metres_per_unit))
+        return bad_input("is neither unknown (0) nor above 0", "metres_per_unit");
     return Ok{};
 }
 
@@ -90,6 +130,7 @@ Status validate(const Animation& animation)
     MESHREEL_CHECK(validate_triangles(animation));
     MESHREEL_CHECK(validate_positions(animation));
     MESHREEL_CHECK(validate_times(animation));
+    MESHREEL_CHECK(validate_metadata(animation.meta));
     for (const Attribute& attribute : animation.appearance.attributes)
         MESHREEL_CHECK(validate_attribute(animation, attribute));
     return Ok{};

@@ -29,7 +29,7 @@ constexpr std::size_t scalar_size(Scalar type)
 /// One table of values carried beside the positions, bit for bit: a UV set, normals, colours, material numbers.
 struct Attribute {
     /// "uv0", "uv1", ...; "normal"; "tangent"; "color0", ...; "material" and "group" (domain triangle, u32, an index
-    /// into Appearance::materials / groups); any other name is carried too.
+    /// into Appearance::materials / groups, or 0xffffffff: none); any other name is carried too.
     std::string name;
     Domain domain = Domain::vertex;
     Scalar type = Scalar::f32;
@@ -64,7 +64,7 @@ enum class Axis : std::uint8_t { unknown, x, y, z };
 /// What is known about the animation as a whole. Nothing here is guessed: 0 or unknown where the file does not say.
 struct Metadata {
     std::string name;
-    bool loop = false;            ///< the last frame is followed by the first
+    bool loop = false; ///< the last frame is followed by the first
     Axis up = Axis::unknown;
     double metres_per_unit = 0.0; ///< 0: unknown
     double fps = 0.0;             ///< nominal frames a second; 0: unknown, the times stand for themselves
@@ -81,7 +81,10 @@ struct Animation {
 
     std::size_t frame_count() const { return times_s.size(); }
     /// Positions of one frame, [V x 3].
-    std::span<const float> frame(std::size_t f) const { return {positions.data() + f * vertex_count * 3, vertex_count * 3ul}; }
+    std::span<const float> frame(std::size_t f) const
+    {
+        return {positions.data() + f * vertex_count * 3, vertex_count * 3ul};
+    }
     std::span<float> frame(std::size_t f) { return {positions.data() + f * vertex_count * 3, vertex_count * 3ul}; }
 };
 
@@ -89,7 +92,8 @@ struct Animation {
 std::vector<double> uniform_times(std::size_t frame_count, double fps, double start_s = 0.0);
 
 /// Names what is wrong with an animation and where: sizes that disagree, an index out of range, a NaN or infinity by
-/// frame and vertex, times that do not increase, an attribute whose table does not fit. @fails bad_input.
+/// frame and vertex, times that do not increase, an attribute whose table does not fit, a "material" or "group" number
+/// without a name. Degenerate, duplicated and non-manifold triangles are valid. @fails bad_input. @cost O(F V + T).
 Status validate(const Animation& animation);
 
 /// Length of the diagonal of the bounding box of the first frame, model units. @source thesis 2.1

@@ -69,11 +69,17 @@ std::uint32_t split_round(Body& body, std::uint32_t count)
     return done;
 }
 
+/// 32-bit values as little-endian bytes.
 template <class T>
 Bytes bytes_of(const std::vector<T>& values)
 {
-    Bytes bytes(values.size() * sizeof(T));
-    if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+    Bytes bytes;
+    for (const T& value : values) {
+        std::uint32_t word;
+        static_assert(sizeof(word) == sizeof(value));
+        std::memcpy(&word, &value, sizeof word);
+        for (unsigned shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(word >> shift));
+    }
     return bytes;
 }
 
