@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <array>
 
-#include "meshreel/coding/mixer.h"
 #include "meshreel/coding/model.h"
 #include "meshreel/coding/varint.h"
 #include "meshreel/connectivity/adjacency.h"
+#include "meshreel/connectivity/judge.h"
 #include "meshreel/connectivity/rank_set.h"
 
 namespace meshreel::connectivity {
 
 namespace {
-
-using coding::Bit;
 
 /// What a candidate is. x' and x'' are the triangles one and two before, x the corners of this one known so far.
 enum Kind : std::uint8_t {
@@ -146,50 +144,12 @@ struct Hits {
     std::array<std::uint8_t, 3> now{};
 };
 
-/// The models that judge whether a candidate is right.
-class Judge {
-public:
-    template <class Coder>
-    bool code(Coder& coder, const Hits& hits, std::uint32_t j, std::uint32_t features, std::uint8_t kind, bool wanted)
-    {
-        const std::uint32_t here = j * 32 + kind;
-        const auto hit = [&](std::size_t back) { return hits.past[back][j]; };
-        const std::uint32_t in_triangle = j == 0   ? hits.past[0][2] * 32u + hits.past[0][1]
-                                          : j == 1 ? hits.now[0] * 32u + hits.past[0][2]
-                                                   : hits.now[1] * 32u + hits.now[0];
-        const std::array<Bit*, 6> models = {
-            &slot(0, here, hit(0)),
-            &slot(1, here, hit(0) * 32u + hit(1)),
-            &slot(2, here, in_triangle),
-            &slot(3, here, features),
-            &slot(4, here, (in_triangle * 32u + hit(0)) * 32u + hit(1)),
-            &slot(5, here, (in_triangle * 32u + hit(1)) * 1024u + features),
-        };
-        return mixers_[here].code(coder, models, wanted);
-    }
-
-private:
-    static constexpr int slot_bits = 16;
-
-    Bit& slot(std::uint32_t table, std::uint32_t here, std::uint32_t context)
-    {
-        const std::uint32_t hash = ((context * 96 + here) * 8 + table) * 2654435761u;
-        return bits_[hash >> (32 - slot_bits)];
-    }
-
-    std::vector<Bit> bits_ = std::vector<Bit>(std::size_t{1} << slot_bits);
-    std::array<coding::Mixer<6>, 96> mixers_;
-};
-
 template <class Coder>
 class SequenceCoder {
 public:
     SequenceCoder(Coder& coder, std::uint32_t vertex_count)
         : coder_(coder), history_(vertex_count), unseen_(vertex_count, true)
     {
-        for (auto& of_corner : order_)
-            for (auto& kinds_in_order : of_corner)
-                for (std::uint8_t kind = 0; kind < kinds; ++kind) kinds_in_order[kind] = kind;
     }
 
     /// @fails bad_input: an index that does not exist.
@@ -226,23 +186,37 @@ private:
             const bool repeats = (j > 0 && value[kind] == x[0]) || (j > 1 && value[kind] == x[1]);
             if (repeats || value[kind] >= history_.vertex_count()) value[kind] = none;
         }
-        auto& order = order_[j][hits_.past[0][j]];
+        TryOrder<kinds>& order = order_[j][hits_.past[0][j]];
         for (std::size_t place = 0; place < kinds; ++place) {
             const std::uint8_t kind = order[place];
             const std::uint32_t candidate = value[kind];
             if (candidate == none) continue;
-            const std::uint32_t alike = static_cast<std::uint32_t>(std::count(value.begin(), value.end(), candidate));
+            const auto alike = static_cast<std::uint32_t>(std::count(value.begin(), value.end(), candidate));
             std::replace(value.begin(), value.end(), candidate, none);
-            const std::uint32_t features = std::min(alike, 3u) * 8 +
-                                           std::min<std::uint32_t>(static_cast<std::uint32_t>(place), 3u) * 2 +
-                                           (history_.seen(candidate) ? 1 : 0);
-            if (!judge_.code(coder_, hits_, j, features, kind, wanted == candidate)) continue;
+            const std::uint32_t near = std::min(static_cast<std::uint32_t>(place), 3u);
+            const std::uint32_t features = std::min(alike, 3u) * 8 + near * 2 + (history_.seen(candidate) ? 1 : 0);
+            if (!judge_.code(coder_, j * 32 + kind, contexts(j, features), wanted == candidate)) continue;
             hits_.now[j] = kind;
-            if (place > 0) std::swap(order[place], order[place / 2]);
+            order.right(place);
             return candidate;
         }
         hits_.now[j] = escape;
         return escaped(x, j, wanted);
+    }
+
+    Judge::Contexts contexts(std::uint32_t j, std::uint32_t features) const
+    {
+        const auto hit = [&](std::size_t back, std::uint32_t corner) { return hits_.past[back][corner] * 1u; };
+        const std::uint32_t one = hit(0, j), two = hit(1, j);
+        const std::uint32_t in_triangle = j == 0   ? hit(0, 2) * 32 + hit(0, 1)
+                                          : j == 1 ? hits_.now[0] * 32u + hit(0, 2)
+                                                   : hits_.now[1] * 32u + hits_.now[0];
+        return {one,
+                one * 32 + two,
+                in_triangle,
+                features,
+                (in_triangle * 32 + one) * 32 + two,
+                (in_triangle * 32 + two) * 1024 + features};
     }
 
     /// None of the candidates: a new vertex by its rank among the new ones, or an old one by its number.
@@ -266,8 +240,8 @@ private:
     RankSet unseen_;
     Hits hits_;
     Judge judge_;
-    std::array<std::array<std::array<std::uint8_t, kinds>, kinds + 1>, 3> order_; ///< [corner][last hit there]
-    Bit fresh_[3];
+    std::array<std::array<TryOrder<kinds>, kinds + 1>, 3> order_; ///< [corner][last hit there]
+    coding::Bit fresh_[3];
     coding::NumberModel jump_[3], new_[3];
 };
 

@@ -10,6 +10,7 @@
 #include "meshreel/coding/model.h"
 #include "meshreel/coding/varint.h"
 #include "meshreel/connectivity/adjacency.h"
+#include "meshreel/connectivity/reorder.h"
 #include "meshreel/connectivity/sequence.h"
 #include "meshreel/connectivity/shell.h"
 #include "meshreel/connectivity/splits.h"
@@ -26,6 +27,7 @@ enum class Method : std::uint8_t {
     given = 0,    ///< not at all
     shell = 1,    ///< Edgebreaker; numbering lost
     sequence = 2, ///< in its own order
+    reordered = 3 ///< Edgebreaker, then the way back to the numbering
 };
 
 /// The head of the payload: two bits each for order and method, then the counts.
@@ -105,6 +107,28 @@ Topology named_topology(std::span<const Triangle> triangles, std::span<const std
     return topology;
 }
 
+/// The triangle list with its numbers in the cheaper of two ways; the coder goes on behind it. The second is not tried
+/// where the first needs less than three bits a triangle: such lists are regular, and often large.
+Method write_named(coding::RangeEncoder& coder, std::uint32_t vertex_count, std::span<const Triangle> triangles)
+{
+    coding::RangeEncoder sequence = coder;
+    write_sequence(sequence, vertex_count, triangles);
+    std::optional<Shelled> shelled;
+    if (8 * (sequence.size() - coder.size()) > 3 * triangles.size()) shelled = shell_of(vertex_count, triangles);
+    Method method = Method::sequence;
+    if (shelled) {
+        coding::RangeEncoder reordered = coder;
+        write(reordered, shelled->shell);
+        write_order(reordered, vertex_count, *shelled);
+        if (reordered.size() < sequence.size()) {
+            sequence = std::move(reordered);
+            method = Method::reordered;
+        }
+    }
+    coder = std::move(sequence);
+    return method;
+}
+
 Encoded encode_named(const Input& input, Order order)
 {
     const Indices class_of = classes_of(input);
@@ -115,10 +139,7 @@ Encoded encode_named(const Input& input, Order order)
     coding::RangeEncoder coder;
     write_classes(coder, class_of);
     Head head{order, Method::given, input.vertex_count, input.triangles.size()};
-    if (order == Order::keep) {
-        head.method = Method::sequence;
-        write_sequence(coder, classes, triangles);
-    }
+    if (order == Order::keep) head.method = write_named(coder, classes, triangles);
     const Members originals = members_of(classes, class_of);
     for (const std::uint32_t c : traced.vertex_of) result.original_of.push_back(originals.of(c)[0]);
     const Indices corner_of = traced.corner_of;
@@ -204,7 +225,7 @@ Result<Head> read_head(coding::VarintReader& bytes, const DecodeLimits& limits)
     Head head;
     head.order = static_cast<Order>(kind & 3);
     head.method = static_cast<Method>(kind >> 2 & 3);
-    const bool named = head.method == Method::sequence;
+    const bool named = head.method == Method::sequence || head.method == Method::reordered;
     const bool fits = head.order == Order::base   ? head.method == Method::given
                       : head.order == Order::keep ? named
                                                   : head.method == Method::shell || head.method == Method::sequence;
@@ -243,7 +264,9 @@ Result<std::vector<Triangle>> read_list(coding::RangeDecoder& coder, const Head&
     MESHREEL_TRY(const Shell shell, read(coder, triangle_count, closed_limit));
     const auto used = static_cast<std::size_t>(std::count(shell.copies.begin(), shell.copies.end(), Shell::fresh));
     if (used > vertex_count) return bad_input("more vertices than announced", "copies");
-    return triangles_of(shell);
+    MESHREEL_TRY(std::vector<Triangle> list, triangles_of(shell));
+    if (head.method == Method::reordered) return read_order(coder, vertex_count, list);
+    return list;
 }
 
 Result<Topology> decode_free(coding::RangeDecoder& coder, const Head& head, const DecodeLimits& limits)

@@ -1,0 +1,412 @@
+/// Steps of a walk over triangles, and numbers from their neighbours' numbers.
+// SPDX-License-Identifier: MIT
+#include "meshreel/connectivity/reorder.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "meshreel/base/text.h"
+#include "meshreel/coding/model.h"
+#include "meshreel/coding/varint.h"
+#include "meshreel/connectivity/adjacency.h"
+#include "meshreel/connectivity/judge.h"
+#include "meshreel/connectivity/rank_set.h"
+
+namespace meshreel::connectivity {
+
+namespace {
+
+/// What a new vertex's number is compared with when it cannot be guessed.
+enum class Reference : std::uint8_t { lowest, last_new, neighbour };
+constexpr std::uint32_t references = 3;
+
+/// The mesh, and what both sides know of the order so far.
+class Walked {
+public:
+    Walked(std::uint32_t vertex_count, std::span<const Triangle> triangles)
+        : mesh_(adjacency(vertex_count, triangles)), visited_(triangles.size()), number_(vertex_count, none),
+          vertex_(vertex_count, none), corner_(vertex_count, none), frontier_(triangle_count(), false),
+          stamp_(triangles.size(), none), unvisited_(triangle_count(), true), unused_(vertex_count, true)
+    {
+        for (std::uint32_t h = 3 * triangle_count(); h-- > 0;) corner_[mesh_.from(h)] = h;
+    }
+
+    const Adjacency& mesh() const { return mesh_; }
+    std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
+    bool visited(std::uint32_t k) const { return visited_[k] != 0; }
+    std::uint32_t number_at(std::uint32_t h) const { return number_[mesh_.from(h)]; }
+    const RankSet& unvisited() const { return unvisited_; }
+    const RankSet& frontier() const { return frontier_; }
+    const RankSet& unused() const { return unused_; }
+    bool is_unused(std::uint32_t number) const { return number < vertex_.size() && vertex_[number] == none; }
+    std::uint32_t stamp(std::uint32_t k) const { return stamp_[k]; }
+    std::uint32_t stamped(std::uint32_t stamp) const { return stamped_[stamp]; }
+
+    std::uint32_t across(std::uint32_t h) const { return mesh_.twin[h] == none ? none : mesh_.twin[h] / 3; }
+    /// The triangle beyond the next (or, back, the previous) edge of the one beyond h.
+    std::uint32_t beyond(std::uint32_t h, bool back) const
+    {
+        const std::uint32_t twin = mesh_.twin[h];
+        return twin == none ? none : across(back ? previous_half(twin) : next_half(twin));
+    }
+    /// The first unvisited triangle met when turning about the origin of h, or none within a few steps.
+    std::uint32_t around(std::uint32_t h, bool clockwise) const
+    {
+        for (int step = 0; step < 12 && h != none; ++step) {
+            if (!visited(h / 3)) return h / 3;
+            h = clockwise ? mesh_.twin[h] : mesh_.twin[previous_half(h)];
+            if (clockwise && h != none) h = next_half(h);
+        }
+        return none;
+    }
+    /// An unvisited triangle at the vertex of that number.
+    std::uint32_t at_number(std::uint32_t number) const
+    {
+        if (number >= vertex_.size() || vertex_[number] == none) return none;
+        const std::uint32_t corner = corner_[vertex_[number]];
+        const std::uint32_t found = around(corner, false);
+        return found != none ? found : around(corner, true);
+    }
+    /// number(a) + number(b) - number(c) over the edge opposite to corner h, or none.
+    std::uint32_t parallelogram(std::uint32_t h) const
+    {
+        const std::uint32_t edge = next_half(h), twin = mesh_.twin[edge];
+        if (twin == none) return none;
+        const std::uint32_t a = number_at(edge), b = number_at(next_half(edge)), c = number_at(previous_half(twin));
+        return a == none || b == none || c == none ? none : a + b - c;
+    }
+
+    void visit(std::uint32_t k)
+    {
+        visited_[k] = 1;
+        unvisited_.erase(k);
+        if (stamp_[k] != none) frontier_.erase(stamp_[k]);
+        for (std::uint32_t h = 3 * k; h < 3 * k + 3; ++h) {
+            const std::uint32_t other = across(h);
+            if (other == none || visited(other) || stamp_[other] != none) continue;
+            stamp_[other] = static_cast<std::uint32_t>(stamped_.size());
+            stamped_.push_back(other);
+            frontier_.insert(stamp_[other]);
+        }
+    }
+    void give(std::uint32_t h, std::uint32_t number)
+    {
+        number_[mesh_.from(h)] = number;
+        vertex_[number] = mesh_.from(h);
+        unused_.erase(number);
+    }
+
+private:
+    Adjacency mesh_;
+    std::vector<std::uint8_t> visited_;
+    std::vector<std::uint32_t> number_, vertex_; ///< [W] number of each vertex and back, none where not yet known
+    std::vector<std::uint32_t> corner_;          ///< [W] a corner of each vertex
+    RankSet frontier_;                           ///< stamps of unvisited triangles beside visited ones
+    std::vector<std::uint32_t> stamp_, stamped_; ///< when a triangle came to the frontier, and back
+    RankSet unvisited_, unused_;
+};
+
+template <class Coder>
+class OrderCoder {
+public:
+    OrderCoder(Coder& coder, Walked& walked, Reference reference)
+        : coder_(coder), walked_(walked), reference_(reference)
+    {
+    }
+
+    /// @param wanted  half-edge (of the turned triangles) at the first corner of the next triangle; its numbers.
+    /// @return that half-edge, or none where the bytes are wrong; every corner has its number.
+    std::uint32_t next(std::uint32_t wanted, const Triangle& numbers)
+    {
+        const std::uint32_t k = triangle(wanted / 3);
+        if (k == none) return none;
+        const std::uint32_t first = 3 * k + rotation(k, wanted % 3);
+        walked_.visit(k);
+        const bool flipped = walked_.mesh().flipped[k] != 0; // then the second corner is the turned triangle's third
+        const std::array<std::uint32_t, 3> corners = {first, flipped ? previous_half(first) : next_half(first),
+                                                      flipped ? next_half(first) : previous_half(first)};
+        for (std::uint32_t j = 0; j < 3; ++j) {
+            if (walked_.number_at(corners[j]) == none && !name(corners, j, numbers[j])) return none;
+            at_corner_[j] = walked_.number_at(corners[j]);
+        }
+        past_ = {first, past_[0]};
+        return first;
+    }
+
+private:
+    // ---- which triangle ------------------------------------------------------------------------------------------
+    static constexpr std::uint8_t moves = 26;
+
+    std::uint32_t candidate(std::uint8_t move) const
+    {
+        const std::uint32_t h = past_[0];
+        if (move == 24) return walked_.unvisited().size() > 0 ? walked_.unvisited().at(0) : none;
+        if (h == none) return none;
+        const std::array<std::uint32_t, 3> edge = {h, next_half(h), previous_half(h)};
+        if (move < 3) return walked_.across(edge[move]);
+        if (move < 9) return walked_.beyond(edge[(move - 3u) / 2], move % 2 == 0);
+        if (move < 12) return past_[1] == none ? none : walked_.across(turned(past_[1], move - 9u));
+        if (move < 18) return walked_.around(edge[(move - 12u) / 2], move % 2 == 0);
+        if (move == 18) return walked_.at_number(at_corner_[0] + 1);
+        if (move == 19) return walked_.at_number(at_corner_[0] - 1);
+        if (move == 20) return walked_.at_number(at_corner_[1] + 1);
+        if (move == 21) return walked_.at_number(last_new_);
+        if (move == 22) return newest(0);
+        if (move == 23) return newest(walked_.frontier().size() - 1);
+        return h / 3 + 1 < walked_.triangle_count() ? h / 3 + 1 : none;
+    }
+    static std::uint32_t turned(std::uint32_t h, std::uint32_t by) { return h - h % 3 + (h % 3 + by) % 3; }
+    /// The triangle that came to the frontier `age` triangles before the last.
+    std::uint32_t newest(std::uint32_t age) const
+    {
+        const RankSet& frontier = walked_.frontier();
+        return age < frontier.size() ? walked_.stamped(frontier.at(frontier.size() - 1 - age)) : none;
+    }
+
+    std::uint32_t triangle(std::uint32_t wanted)
+    {
+        std::array<std::uint32_t, moves> value;
+        for (std::uint8_t move = 0; move < moves; ++move) {
+            value[move] = candidate(move);
+            if (value[move] != none && walked_.visited(value[move])) value[move] = none;
+        }
+        TryOrder<moves>& order = move_order_[hits_[0]];
+        for (std::size_t place = 0; place < moves; ++place) {
+            const std::uint8_t move = order[place];
+            const std::uint32_t k = value[move];
+            if (k == none) continue;
+            const auto alike = static_cast<std::uint32_t>(std::count(value.begin(), value.end(), k));
+            std::replace(value.begin(), value.end(), k, none);
+            if (!moves_.code(coder_, move, contexts(k, alike, place), wanted == k)) continue;
+            order.right(place);
+            hits_ = {move, hits_[0], hits_[1], hits_[2]};
+            return k;
+        }
+        hits_ = {moves, hits_[0], hits_[1], hits_[2]};
+        return far_triangle(wanted);
+    }
+
+    Judge::Contexts contexts(std::uint32_t k, std::uint32_t alike, std::size_t place) const
+    {
+        std::uint32_t numbered = 0, beside = 0;
+        for (std::uint32_t h = 3 * k; h < 3 * k + 3; ++h) {
+            const std::uint32_t other = walked_.across(h);
+            numbered += walked_.number_at(h) != none ? 1 : 0;
+            beside += other == none || walked_.visited(other) ? 1 : 0;
+        }
+        const std::uint32_t near = std::min(static_cast<std::uint32_t>(place), 3u);
+        const std::uint32_t features = ((std::min(alike, 3u) * 4 + numbered) * 4 + beside) * 4 + near;
+        const std::uint32_t two = hits_[0] * 32u + hits_[1], three = two * 32u + hits_[2];
+        return {hits_[0] * 1u, two, three, three * 32u + hits_[3], features, two * 256u + features};
+    }
+
+    /// No candidate: by its place in the frontier, newest first, or among all that are left.
+    std::uint32_t far_triangle(std::uint32_t wanted)
+    {
+        const RankSet &frontier = walked_.frontier(), &unvisited = walked_.unvisited();
+        const bool near =
+            frontier.size() > 0 && coder_.bit(in_frontier_, Coder::writes && walked_.stamp(wanted) != none);
+        if (near) {
+            const std::uint64_t age = Coder::writes ? frontier.size() - 1 - frontier.rank(walked_.stamp(wanted)) : 0;
+            const std::uint64_t found = age_.code(coder_, age);
+            return found < frontier.size() ? newest(static_cast<std::uint32_t>(found)) : none;
+        }
+        const std::uint64_t rank = Coder::writes ? unvisited.rank(wanted) : 0;
+        const std::uint64_t found = far_.code(coder_, rank);
+        return found < unvisited.size() ? unvisited.at(static_cast<std::uint32_t>(found)) : none;
+    }
+
+    // ---- which corner is first -----------------------------------------------------------------------------------
+    std::uint32_t rotation(std::uint32_t k, std::uint32_t wanted)
+    {
+        std::uint32_t base = 0, best = none;
+        for (std::uint32_t i = 0; i < 3; ++i) { // the corner known by the most recent, smallest sign
+            const std::uint32_t number = walked_.number_at(3 * k + i);
+            const std::uint32_t sign = number == none            ? none - 1
+                                       : number == at_corner_[0] ? 0
+                                       : number == at_corner_[1] ? 1
+                                       : number == at_corner_[2] ? 2
+                                                                 : number + 3;
+            if (sign >= best) continue;
+            best = sign;
+            base = i;
+        }
+        std::uint32_t known = 0, order = 0;
+        std::array<std::uint32_t, 3> numbers;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            numbers[i] = walked_.number_at(3 * k + (base + i) % 3);
+            known = known * 2 + (numbers[i] != none ? 1 : 0);
+        }
+        order = (numbers[0] < numbers[1] ? 1u : 0u) + (numbers[1] < numbers[2] ? 2u : 0u) +
+                (numbers[2] < numbers[0] ? 4u : 0u);
+        const std::uint32_t sign = std::min(best, 3u), shape = (known * 8 + order) * 4 + sign;
+        const Judge::Contexts seen = {
+            hits_[0] * 1u,          hits_[0] * 32u + hits_[1],       shape,
+            shape * 32u + hits_[0], (turns_ & 63u) * 32u + hits_[0], (turns_ & 15u) * 256u + shape};
+        const std::uint32_t turn = (wanted + 3 - base) % 3;
+        const bool stays = rotations_.code(coder_, 0, seen, turn == 0);
+        const bool one = !stays && rotations_.code(coder_, 1, seen, turn == 1);
+        const std::uint32_t found = stays ? 0 : one ? 1 : 2;
+        turns_ = turns_ * 4 + found;
+        return (base + found) % 3;
+    }
+
+    // ---- which number a new vertex has ---------------------------------------------------------------------------
+    static constexpr std::uint8_t guesses = 9;
+
+    std::uint32_t guess(std::uint8_t kind, const std::array<std::uint32_t, 3>& corners, std::uint32_t j) const
+    {
+        const std::uint32_t before = walked_.number_at(corners[(j + 2) % 3]),
+                            after = walked_.number_at(corners[(j + 1) % 3]);
+        switch (kind) {
+        case 0:
+            return walked_.unused().at(0);
+        case 1:
+            return last_new_ + 1;
+        case 2:
+            return last_new_ - 1;
+        case 3:
+            return walked_.parallelogram(corners[j]);
+        case 4:
+            return before == none ? none : before + 1;
+        case 5:
+            return before == none ? none : before - 1;
+        case 6:
+            return after == none ? none : after + 1;
+        case 7:
+            return after == none ? none : after - 1;
+        default:
+            return last_new_ + (last_new_ - new_before_);
+        }
+    }
+
+    bool name(const std::array<std::uint32_t, 3>& corners, std::uint32_t j, std::uint32_t wanted)
+    {
+        const RankSet& unused = walked_.unused();
+        if (unused.size() == 0) return false;
+        std::uint32_t found = none;
+        std::array<std::uint32_t, guesses> value;
+        for (std::uint8_t kind = 0; kind < guesses; ++kind) {
+            value[kind] = guess(kind, corners, j);
+            if (value[kind] != none && !walked_.is_unused(value[kind])) value[kind] = none;
+        }
+        std::uint8_t hit = guesses;
+        for (std::size_t place = 0; place < guesses && found == none; ++place) {
+            const std::uint8_t kind = guess_order_[j][place];
+            const std::uint32_t number = value[kind];
+            if (number == none) continue;
+            const auto alike = static_cast<std::uint32_t>(std::count(value.begin(), value.end(), number));
+            std::replace(value.begin(), value.end(), number, none);
+            const std::uint32_t now = hits_[0] * 3u + j,
+                                features = std::min(alike, 3u) * 4 +
+                                           std::min<std::uint32_t>(static_cast<std::uint32_t>(place), 3u);
+            const Judge::Contexts seen = {now,
+                                          named_[0] * 4u + j,
+                                          (named_[0] * 16u + named_[1]) * 4 + j,
+                                          features * 4 + j,
+                                          ((named_[0] * 16u + named_[1]) * 16 + named_[2]) * 128 + now,
+                                          (named_[0] * 128u + now) * 16 + features};
+            if (!names_.code(coder_, kind, seen, wanted == number)) continue;
+            guess_order_[j].right(place);
+            hit = kind;
+            found = number;
+        }
+        if (found == none) found = far_number(corners, j, wanted);
+        if (found == none) return false;
+        named_ = {hit, named_[0], named_[1]};
+        new_before_ = last_new_;
+        last_new_ = found;
+        walked_.give(corners[j], found);
+        return true;
+    }
+
+    std::uint32_t far_number(const std::array<std::uint32_t, 3>& corners, std::uint32_t j, std::uint32_t wanted)
+    {
+        const RankSet& unused = walked_.unused();
+        std::uint32_t from = reference_ == Reference::lowest ? 0 : last_new_;
+        for (std::uint32_t i = 1; i < 3 && reference_ == Reference::neighbour; ++i) {
+            const std::uint32_t number = walked_.number_at(corners[(j + 3 - i) % 3]);
+            if (number == none) continue;
+            from = number;
+            break;
+        }
+        const std::int64_t base = from == none ? 0 : unused.rank(from);
+        const std::int64_t rank = Coder::writes ? unused.rank(wanted) : 0;
+        const std::int64_t found = base + coding::unzigzag(numbers_[j].code(coder_, coding::zigzag(rank - base)));
+        return found >= 0 && found < unused.size() ? unused.at(static_cast<std::uint32_t>(found)) : none;
+    }
+
+    Coder& coder_;
+    Walked& walked_;
+    Reference reference_;
+    std::array<std::uint32_t, 2> past_ = {none, none};            ///< first corners of the last two triangles
+    std::array<std::uint32_t, 3> at_corner_ = {none, none, none}; ///< numbers of the last triangle
+    std::array<std::uint8_t, 4> hits_ = {moves, moves, moves, moves};
+    std::array<std::uint8_t, 3> named_ = {guesses, guesses, guesses};
+    std::uint32_t turns_ = 0, last_new_ = none, new_before_ = none;
+    std::array<TryOrder<moves>, moves + 1> move_order_;
+    std::array<TryOrder<guesses>, 3> guess_order_;
+    Judge moves_, rotations_, names_;
+    coding::Bit in_frontier_;
+    coding::NumberModel age_, far_, numbers_[3];
+};
+
+/// The order that was lost: for each triangle of the input its half-edge in the turned shell.
+std::vector<std::uint32_t> lost_order(const Adjacency& mesh, const Shelled& shelled)
+{
+    std::vector<std::uint32_t> first(shelled.corner_of.size() / 3);
+    for (std::uint32_t c = 0; c < shelled.corner_of.size(); ++c)
+        if (shelled.corner_of[c] % 3 == 0) first[shelled.corner_of[c] / 3] = mesh.input_corner(c);
+    return first;
+}
+
+void write_with(coding::RangeEncoder& coder, Walked walked, const Shelled& shelled, Reference reference)
+{
+    const std::vector<std::uint32_t> first = lost_order(walked.mesh(), shelled);
+    coder.raw(static_cast<std::uint32_t>(reference), 2);
+    OrderCoder order(coder, walked, reference);
+    for (const std::uint32_t h : first) {
+        Triangle numbers;
+        const bool flipped = walked.mesh().flipped[h / 3] != 0;
+        numbers[0] = shelled.vertex_of[walked.mesh().from(h)];
+        numbers[1] = shelled.vertex_of[walked.mesh().from(flipped ? previous_half(h) : next_half(h))];
+        numbers[2] = shelled.vertex_of[walked.mesh().from(flipped ? next_half(h) : previous_half(h))];
+        order.next(h, numbers);
+    }
+}
+
+} // namespace
+
+void write_order(coding::RangeEncoder& coder, std::uint32_t vertex_count, const Shelled& shelled)
+{
+    const Walked walked(vertex_count, *triangles_of(shelled.shell));
+    std::optional<coding::RangeEncoder> best;
+    for (std::uint32_t reference = 0; reference < references; ++reference) {
+        coding::RangeEncoder attempt = coder;
+        write_with(attempt, walked, shelled, static_cast<Reference>(reference));
+        if (!best || attempt.size() < best->size()) best = std::move(attempt);
+    }
+    coder = std::move(*best);
+}
+
+Result<std::vector<Triangle>> read_order(coding::RangeDecoder& coder, std::uint32_t vertex_count,
+                                         std::span<const Triangle> triangles)
+{
+    const std::uint32_t reference = coder.raw(0, 2);
+    if (reference >= references) return bad_input(concat(reference, " is no reference"), "order");
+    Walked walked(vertex_count, triangles);
+    OrderCoder order(coder, walked, static_cast<Reference>(reference));
+    std::vector<Triangle> ordered(triangles.size());
+    for (Triangle& t : ordered) {
+        const std::uint32_t h = order.next(0, {});
+        if (h == none) return bad_input("no such triangle or vertex", "order");
+        if (coder.overrun()) return bad_input("the bytes end too early", "order");
+        const bool flipped = walked.mesh().flipped[h / 3] != 0;
+        t = {walked.number_at(h), walked.number_at(flipped ? previous_half(h) : next_half(h)),
+             walked.number_at(flipped ? next_half(h) : previous_half(h))};
+    }
+    return ordered;
+}
+
+} // namespace meshreel::connectivity
