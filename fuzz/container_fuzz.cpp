@@ -14,9 +14,8 @@ constexpr DecodeLimits limits{
 /// A file whose checksums are right, so that the fuzzer gets past them: chunks as [type][length][payload]...
 Bytes file_of(ByteView data)
 {
-    constexpr Tag types[] = {type::head, type::time,       type::meta,      type::conn, type::weld,
-                             type::codc, type::matl,       type::grup,      type::attr, type::aset,
-                             type::segm, make_tag("news"), make_tag("NEWS")};
+    constexpr Tag types[] = {type::head, type::time, type::meta, type::conn,       type::matl,      type::grup,
+                             type::attr, type::aset, type::segm, make_tag("news"), make_tag("NEWS")};
     StreamWriter file;
     while (data.size() >= 3) {
         const Tag type = types[data[0] % std::size(types)];

@@ -83,6 +83,7 @@ TEST(Explain, names_the_field_that_is_wrong)
     StreamWriter file;
     file.add(type::head, ByteView(Bytes{1, 'x', 0}));
     file.add(type::time, ByteView{});
+    file.add(type::conn, ByteView{});
     file.add(type::segm, ByteView{});
     EXPECT_EQ(told(std::move(file).finish()), "byte 23: HEAD.vertex_count: 0 is not in 1 .. 4294967295");
 }

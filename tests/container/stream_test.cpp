@@ -82,11 +82,12 @@ TEST(Stream, skips_a_chunk_it_does_not_know_if_its_first_letter_is_small_and_ref
 TEST(Stream, refuses_chunks_missing_repeated_or_out_of_place)
 {
     using namespace type;
-    EXPECT_EQ(error_of(file_of({head, time, segm})).message, "no error");
-    EXPECT_EQ(error_of(file_of({time, head, segm})).field, "HEAD");
-    EXPECT_EQ(error_of(file_of({head, time})).field, "SEGM");
-    EXPECT_EQ(error_of(file_of({head, segm})).field, "TIME");
-    EXPECT_EQ(error_of(file_of({head, time, time, segm})).message, "a second one");
+    EXPECT_EQ(error_of(file_of({head, time, conn, segm})).message, "no error");
+    EXPECT_EQ(error_of(file_of({time, head, conn, segm})).field, "HEAD");
+    EXPECT_EQ(error_of(file_of({head, time, conn})).field, "SEGM");
+    EXPECT_EQ(error_of(file_of({head, conn, segm})).field, "TIME");
+    EXPECT_EQ(error_of(file_of({head, time, segm})).field, "CONN");
+    EXPECT_EQ(error_of(file_of({head, time, time, conn, segm})).message, "a second one");
     EXPECT_EQ(error_of(file_of({head, time, indx, segm})).field, "INDX");
     EXPECT_EQ(error_of(file_of({})).field, "HEAD");
 }
@@ -100,13 +101,14 @@ TEST(Stream, refuses_bytes_after_the_end)
 
 TEST(Stream, refuses_an_index_that_does_not_agree_with_the_chunks)
 {
-    const std::uint64_t first = Preamble::size, empty_chunk = 9, index_offset = first + 3 * empty_chunk;
+    const std::uint64_t first = Preamble::size, empty_chunk = 9, index_offset = first + 4 * empty_chunk;
     for (const std::uint64_t wrong : {0, 1}) {
         StreamWriter forged;
-        for (const Tag type : {type::head, type::time, type::segm}) forged.add(type, ByteView{});
+        for (const Tag type : {type::head, type::time, type::conn, type::segm}) forged.add(type, ByteView{});
         const Index index{{{type::head, first, 0},
                            {type::time, first + empty_chunk, 0},
-                           {type::segm, first + 2 * empty_chunk, wrong}}};
+                           {type::conn, first + 2 * empty_chunk, 0},
+                           {type::segm, first + 3 * empty_chunk, wrong}}};
         EXPECT_TRUE(forged.add(type::indx, index).ok());
         const std::uint64_t size = index_offset + 4 + 1 + write_fields(index)->size() + 4 + Tail::chunk_size;
         EXPECT_TRUE(forged.add(type::tail, Tail{index_offset, size}).ok());

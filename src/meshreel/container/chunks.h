@@ -25,7 +25,7 @@ struct Header {
 
     void fields(auto& io)
     {
-        io.text("codec", codec, 32, "name of the codec that wrote CODC and SEGM");
+        io.text("codec", codec, 32, "name of the codec that wrote SEGM");
         io.varint("vertex_count", vertex_count, up_to(Limit::vertices, 1), "V");
         io.varint("coded_vertex_count", coded_vertex_count, up_to(Limit::vertices, 1),
                   "W: vertices that the codec sees, 1 .. V");

@@ -175,11 +175,10 @@ Status explain_common(const Chunk& chunk, const DecodeLimits& limits, std::strin
     }
 }
 
-/// CONN and CODC as the codec tells them, or as opaque bytes; SEGM's payload likewise, after its own fields.
+/// CONN as its coder tells it, or as opaque bytes; SEGM's payload likewise, after its own fields.
 Status explain_payload(const StreamReader& file, const Chunk& chunk, const ExplainPayload& payloads, std::string& lines)
 {
-    const bool codecs =
-        chunk.type == type::conn || chunk.type == type::codc || chunk.type == type::weld || chunk.type == type::segm;
+    const bool codecs = chunk.type == type::conn || chunk.type == type::segm;
     if (!codecs || !payloads) return explain_common(chunk, file.limits(), lines);
     Source source = chunk.source();
     if (chunk.type == type::segm) {

@@ -55,7 +55,7 @@ Status explain_fields(Source source, const DecodeLimits& limits, std::string& li
     return explainer.finish();
 }
 
-/// What a codec and the connectivity coder say of their own bytes: CONN and CODC payloads, and the payload within SEGM.
+/// What a codec and the connectivity coder say of their own bytes: the payload of CONN, and the payload within SEGM.
 /// Appends lines (explain_fields); none where it has nothing to say.
 using ExplainPayload = std::function<Status(const Header& header, Tag type, Source payload, std::string& lines)>;
 

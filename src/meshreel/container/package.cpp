@@ -69,7 +69,6 @@ Result<Header> read_header(const StreamReader& file)
     MESHREEL_TRY(const Header header, file.read<Header>(type::head));
     MESHREEL_CHECK(in_chunk(within(file.limits(), header.vertex_count, header.triangle_count, header.frame_count),
                             *file.find(type::head)));
-    if (file.find(type::conn) == nullptr) return bad_input("there is no such chunk", "CONN");
     return header;
 }
 

@@ -18,8 +18,8 @@ struct Kind {
     bool many;
 };
 constexpr Kind kinds[] = {
-    {type::head, true, false},  {type::time, true, false},  {type::conn, false, false}, {type::weld, false, false},
-    {type::codc, false, false}, {type::segm, true, true},   {type::meta, false, false}, {type::attr, false, true},
+    {type::head, true, false},  {type::time, true, false},  {type::conn, true, false},
+    {type::segm, true, true},   {type::meta, false, false}, {type::attr, false, true},
     {type::matl, false, false}, {type::grup, false, false}, {type::aset, false, true},
 };
 

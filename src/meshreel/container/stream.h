@@ -22,9 +22,7 @@ inline constexpr std::uint16_t version_minor = 0;
 namespace type {
 inline constexpr Tag head = make_tag("HEAD"); ///< what the file holds; first, once
 inline constexpr Tag time = make_tag("TIME"); ///< frame times; once
-inline constexpr Tag conn = make_tag("CONN"); ///< connectivity, welding and order; once
-inline constexpr Tag weld = make_tag("WELD"); ///< coded vertex of each vertex; at most once
-inline constexpr Tag codc = make_tag("CODC"); ///< what the codec says once for all segments; at most once
+inline constexpr Tag conn = make_tag("CONN"); ///< connectivity, order, and which vertices are coded as one; once
 inline constexpr Tag segm = make_tag("SEGM"); ///< a run of frames; in time order, covering 0 .. F-1
 inline constexpr Tag meta = make_tag("meta"); ///< name, loop, axis, units, fps; at most once
 inline constexpr Tag attr = make_tag("attr"); ///< one attribute table; any number
