@@ -80,7 +80,7 @@ TEST(Off, ErrorsNameTheLineAndField)
     EXPECT_EQ(why(parse("OFF\n900000 1 0\n0 0 0\n")),
               "line 2: vertex_count: 900000 vertices are promised, but 7 bytes are left");
     EXPECT_EQ(why(parse("OFF\n" + corners + "3 0 1 3\n")), "line 6: face: '3' is not one of the 3 vertices");
-    EXPECT_EQ(why(parse("OFF\n" + corners + "3 0 1\n")), "line 6: face: '' is not one of the 3 vertices");
+    EXPECT_EQ(why(parse("OFF\n" + corners + "3 0 1\n")), "line 6: face: the line ends after 2 of 3 corners");
     EXPECT_EQ(why(parse("OFF\n" + corners)), "line 5: face_count: the file ends after 0 of 1 faces");
     EXPECT_EQ(why(parse("OFF\n" + corners + "99 0 1\n")), "line 6: face: a face of 99 corners, but 5 bytes are left");
     EXPECT_EQ(why(parse("OFF\n3 0 0\n0 0 0\n1 0\n1 1 0\n")), "line 4: position: the line ends too early");

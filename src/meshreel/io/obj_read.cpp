@@ -267,7 +267,8 @@ void ObjReader::carry_corners(std::string name, CornerTable& table)
 
 void ObjReader::carry_triangles(std::string name, const std::vector<std::uint32_t>& numbers)
 {
-    if (!numbers.empty()) mesh_.appearance.attributes.push_back(triangle_numbers(std::move(name), numbers));
+    const bool any = std::ranges::any_of(numbers, [](std::uint32_t number) { return number != no_value; });
+    if (any) mesh_.appearance.attributes.push_back(triangle_numbers(std::move(name), numbers));
 }
 
 void ObjReader::carry()

@@ -199,6 +199,8 @@ Status OffReader::face()
     for (std::uint64_t i = 0; i < corners; ++i) {
         const std::string_view word = lines_.word();
         const auto index = to_integer(word);
+        if (word.empty())
+            return bad_input(concat("the line ends after ", i, " of ", corners, " corners"), "face", here());
         if (!index || *index < 0 || *index >= mesh_.vertex_count)
             return bad_input(concat(quoted(word), " is not one of the ", mesh_.vertex_count, " vertices"), "face",
                              here());
@@ -224,7 +226,7 @@ void OffReader::carry()
     if (has_normals_) attributes.push_back(float_attribute("normal", Domain::vertex, 3, normals_));
     if (has_colors_) attributes.push_back(colors_.attribute("color0", Domain::vertex, {}));
     if (has_uvs_) attributes.push_back(float_attribute("uv0", Domain::vertex, 2, uvs_));
-    if (face_colors_.count() == 0 || mesh_.triangles.empty()) return;
+    if (std::ranges::all_of(face_color_of_, [](std::uint32_t color) { return color == no_value; })) return;
     bool in_order = face_colors_.count() == face_color_of_.size();
     for (std::size_t t = 0; t < face_color_of_.size(); ++t) in_order = in_order && face_color_of_[t] == t;
     if (in_order) face_color_of_.clear();

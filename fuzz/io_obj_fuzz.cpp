@@ -1,0 +1,17 @@
+/// Any bytes as an OBJ file: an error, or a mesh that is written and read back to the same bits.
+// SPDX-License-Identifier: MIT
+#include "fuzz/io_round_trip.h"
+#include "meshreel/io/obj.h"
+
+using namespace meshreel;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const io::LoadOptions options = io::fuzz::small_options();
+    const auto read = io::parse_obj({data, size}, options);
+    if (!io::fuzz::is_sound(read)) return 0;
+    const auto written = io::write_obj(*read, 0, {});
+    io::fuzz::demand(written.ok());
+    io::fuzz::demand_same(*read, io::parse_obj(*written, options));
+    return 0;
+}

@@ -1,0 +1,17 @@
+/// Any bytes as a PLY file: an error, or a mesh that is written and read back to the same bits.
+// SPDX-License-Identifier: MIT
+#include "fuzz/io_round_trip.h"
+#include "meshreel/io/ply.h"
+
+using namespace meshreel;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const io::LoadOptions options = io::fuzz::small_options();
+    const auto read = io::parse_ply({data, size}, options);
+    if (!io::fuzz::is_sound(read)) return 0;
+    const auto written = io::write_ply(*read, 0, {});
+    io::fuzz::demand(written.ok());
+    io::fuzz::demand_same(*read, io::parse_ply(*written, options));
+    return 0;
+}
