@@ -87,6 +87,7 @@ io::SaveOptions save_options(const Target& target, Console& console)
     options.bases = target.morph_bases;
     options.binary = !target.ascii;
     options.progress = console.progress();
+    options.warn = [&console](const std::string& text) { console.warn(text); };
     return options;
 }
 

@@ -81,6 +81,20 @@ TEST(Obj, LinesAndPointsAndUnknownStatementsAreTold)
     EXPECT_TRUE(listener.has("'whatever' in line 7"));
 }
 
+TEST(Obj, ANameNeverSwallowsTheNextLine)
+{
+    const auto mesh = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\ng a \\\nb\nusemtl c\nf 1 2 3\n");
+    ASSERT_TRUE(mesh.ok()) << why(mesh);
+    EXPECT_EQ(mesh->appearance.groups, (std::vector<std::string>{"a"}));
+    Animation made = *mesh;
+    made.appearance.groups = {"back\\"};
+    made.appearance.materials = {"two\nlines"};
+    const auto again = parse(text_of(*write_obj(made, 0, {})));
+    ASSERT_TRUE(again.ok()) << why(again);
+    EXPECT_EQ(again->appearance.groups, (std::vector<std::string>{"back_"}));
+    EXPECT_EQ(again->appearance.materials, (std::vector<std::string>{"two_lines"}));
+}
+
 TEST(Obj, WritingAndReadingGivesTheSameBits)
 {
     const std::string text = "mtllib a.mtl\nv 0.1 0.2 1e-30 0.5 0.25 1\nv 1 0 0 1 0 0\nv 1 1 0 0 0 0.1\nv 0 1 0 1 1 1\n"

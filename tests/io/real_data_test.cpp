@@ -36,6 +36,18 @@ TEST_P(RealSequence, IsReadWithItsCounts)
     EXPECT_EQ(read->times_s.back(), static_cast<double>(expected.frames - 1) / 25);
 }
 
+TEST_P(RealSequence, WritesBackToTheSameBytes)
+{
+    const std::string path = data + GetParam().name + "/motion.pc2";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no data beside the project";
+    const Folder folder;
+    LoadOptions options;
+    options.fps = 30;
+    options.mesh = data + GetParam().name + "/mesh.obj";
+    ASSERT_TRUE(save(*load(path, options), folder / "back.pc2").ok());
+    EXPECT_EQ(read(folder / "back.pc2"), read(path));
+}
+
 INSTANTIATE_TEST_SUITE_P(Data, RealSequence,
                          testing::Values(Counts{"chicken", 3030, 5664, 400}, Counts{"dance", 7061, 14118, 201},
                                          Counts{"cow", 2904, 5804, 204}, Counts{"crane", 10002, 20000, 175},

@@ -100,7 +100,7 @@ private:
     NameTable materials_, groups_;
     std::uint32_t material_ = no_value, group_ = no_value, smoothing_ = 0;
     std::vector<std::uint32_t> material_of_, group_of_, smoothing_of_;
-    bool smooth_ = false, has_objects_ = false, has_groups_ = false;
+    bool has_objects_ = false, has_groups_ = false;
     std::uint64_t polygons_ = 0, slivers_ = 0, weights_ = 0, unknown_ = 0, unknown_line_ = 0;
     std::string unknown_word_;
     std::map<std::string_view, std::uint64_t> left_out_;
@@ -227,7 +227,6 @@ Status ObjReader::other_statement(std::string_view keyword)
         if (word != "off" && (!number || *number < 0 || *number >= no_value))
             return bad_input(quoted(word) + " is not a smoothing group", "s", here());
         smoothing_ = number ? static_cast<std::uint32_t>(*number) : 0;
-        smooth_ = smooth_ || smoothing_ != 0;
     } else if (keyword == "mtllib") {
         mesh_.appearance.assets.push_back({std::string(lines_.rest()), "model/mtl", {}});
     } else if (known != left_out.end()) {
@@ -286,7 +285,8 @@ void ObjReader::carry()
     }
     if (!materials_.names.empty()) carry_triangles("material", material_of_);
     if (!groups_.names.empty()) carry_triangles("group", group_of_);
-    if (smooth_) carry_triangles("smoothing", smoothing_of_);
+    if (std::ranges::any_of(smoothing_of_, [](std::uint32_t number) { return number != 0; }))
+        carry_triangles("smoothing", smoothing_of_);
     mesh_.appearance.materials = std::move(materials_.names);
     mesh_.appearance.groups = std::move(groups_.names);
 }

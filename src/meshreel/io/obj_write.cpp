@@ -18,6 +18,13 @@ std::string file_name(const std::string& path)
     return path.substr(path.rfind('/') + 1);
 }
 
+/// A name that ends with a backslash would swallow the next line.
+std::string one_line(std::string name)
+{
+    while (name.ends_with('\\')) name.back() = '_';
+    return name;
+}
+
 /// The attributes that an OBJ file holds; null where there is none.
 struct ObjAttributes {
     const Attribute *uv, *normal, *color, *material, *group, *smoothing;
@@ -98,7 +105,7 @@ void ObjWriter::named(std::string_view keyword, std::uint32_t number, const std:
 {
     out_.text(keyword);
     if (number < names.size() && !names[number].empty())
-        out_.text(" ").name(names[number]);
+        out_.text(" ").name(one_line(names[number]));
     else if (number != no_value)
         out_.text(" ").number(number);
     out_.text("\n");
@@ -128,7 +135,7 @@ void ObjWriter::corner(std::size_t corner)
 Bytes ObjWriter::write()
 {
     for (const Asset& asset : animation_.appearance.assets)
-        if (asset.mime_type == library_type) out_.text("mtllib ").name(file_name(asset.name)).text("\n");
+        if (asset.mime_type == library_type) out_.text("mtllib ").name(one_line(file_name(asset.name))).text("\n");
     vertices();
     table("vt", all_.uv, 3);
     table("vn", all_.normal, 3);

@@ -23,8 +23,8 @@ Status check_counts(const Animation& animation)
 Status save_cache(Result<Bytes> bytes, const Animation& animation, const std::string& path, const SaveOptions& options)
 {
     if (!bytes.ok()) return in_file(Status(std::move(bytes).error()), path);
-    if (!animation.triangles.empty() || !animation.appearance.attributes.empty())
-        tell(options, "a point cache holds positions only: keep the mesh for its triangles and appearance");
+    if (!animation.appearance.attributes.empty())
+        tell(options, "a point cache holds positions only: keep the mesh for its attributes and materials");
     return write_file(path, *bytes, options.overwrite);
 }
 

@@ -95,7 +95,10 @@ std::string_view LineScanner::word()
 std::string_view LineScanner::rest()
 {
     skip_space();
-    std::size_t end = end_;
+    std::size_t end = at_;
+    while (end < end_ && !is_line_end(text_[end])) ++end;
+    const bool joined = backslash_ && end > at_ && text_[end - 1] == '\\';
+    if (joined && end < text_.size()) --end;
     while (end > at_ && is_space(text_[end - 1])) --end;
     const std::string_view found = text_.substr(at_, end - at_);
     at_ = end_;

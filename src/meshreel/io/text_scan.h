@@ -22,7 +22,8 @@ public:
     bool next_line();
     /// The next word of this line; empty at its end. A '#' at the beginning of a word ends the line.
     std::string_view word();
-    /// What is left of this line, without the white space around it. The line is over.
+    /// What is left of this line, without the white space around it; of a continued line its present part. The line is
+    /// over.
     std::string_view rest();
     /// The number of this line, from 1. A continued line has the number of its first part.
     std::uint64_t line() const { return line_; }
