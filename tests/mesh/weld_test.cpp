@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "meshreel/base/random.h"
+#include "meshreel/mesh/test_shapes.h"
 #include "meshreel/mesh/weld.h"
 
 using namespace meshreel;
@@ -71,6 +72,14 @@ TEST(Weld, ZerosOfDifferentSignStayApart)
     animation.positions = {0.0f, 0, 0, -0.0f, 0, 0, 0.0f, 0, 0};
     animation.times_s = {0.0};
     EXPECT_EQ(weld(animation).unique_of, (std::vector<std::uint32_t>{0, 1, 0}));
+}
+
+TEST(Weld, TheDoubledVerticesOfASeamBecomeOne)
+{
+    // 11 x 7 vertices, the last column on the first.
+    const Weld welded = weld(test_shapes::split_seam());
+    EXPECT_EQ(welded.unique_count(), 70u);
+    for (std::uint32_t row = 0; row < 7; ++row) EXPECT_EQ(welded.unique_of[11 * row], welded.unique_of[11 * row + 10]);
 }
 
 TEST(Weld, VerticesThatMeetInOneFrameOnlyStayApart)

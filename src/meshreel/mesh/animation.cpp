@@ -108,7 +108,8 @@ Status validate_metadata(const Metadata& meta)
 
 const Attribute* Appearance::find(const std::string& name) const
 {
-    const auto found = std::ranges::find(attributes, name, &Attribute::name);
+    const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                    [&](const Attribute& attribute) { return attribute.name == name; });
     return found == attributes.end() ? nullptr : &*found;
 }
 

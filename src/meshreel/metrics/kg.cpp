@@ -16,6 +16,7 @@ struct FrameSums {
     double spread = 0.0; ///< sum of |p - centroid|^2
 };
 
+// DEVIATES (5.2): E(A) is each frame's mean x, y and z, which is what Karni and Gotsman subtract.
 template <class T>
 FrameSums frame_sums(std::span<const T> original, std::span<const T> distorted)
 {

@@ -29,7 +29,8 @@ double max_error_relative(const Animation& original, const Animation& distorted,
 
 /// 10 log10(D^2 / MSE), dB; D the original's body diagonal, MSE the mean squared distance of vertices (a third of it,
 /// the mean over coordinates, would give 4.77 dB more). Larger is better; infinite for equal animations, minus infinite
-/// where D is 0 and they differ.  DEVIATES (5.1): that prints 20 log of a mean square, without its sign.
+/// where D is 0 and they differ.  @source thesis 5.1
+// DEVIATES (5.1): printed as 20 log of a mean square, without its sign.
 double psnr(const Animation& original, const Animation& distorted, Threads threads = {});
 
 } // namespace meshreel::metrics
