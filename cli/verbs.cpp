@@ -10,6 +10,7 @@ std::unique_ptr<Verb> make_validate();
 std::unique_ptr<Verb> make_compare();
 std::unique_ptr<Verb> make_convert();
 std::unique_ptr<Verb> make_generate();
+std::unique_ptr<Verb> make_picture();
 
 std::span<const VerbRow> verbs()
 {
@@ -18,6 +19,7 @@ std::span<const VerbRow> verbs()
         VerbRow{"compare", "measure how far one animation is from another", make_compare},
         VerbRow{"convert", "turn an animation from any format into any other", make_convert},
         VerbRow{"generate", "make a sample animation", make_generate},
+        VerbRow{"picture", "draw an animation, its decoded self and the error side by side", make_picture},
     };
     return rows;
 }
