@@ -130,6 +130,35 @@ TEST(Ply, PolygonsBecomeFansThatShareTheirFacesValues)
     EXPECT_TRUE(listener.has("positions are rounded"));
 }
 
+TEST(Ply, TrianglesWithoutAMaterialStayWithoutOne)
+{
+    Animation made = tetrahedron(1);
+    made.appearance.materials = {"red"};
+    made.appearance.attributes.push_back(
+        triangle_numbers("material", std::vector<std::uint32_t>{0, no_value, 0, no_value}));
+    for (const bool binary : {true, false}) {
+        SaveOptions options;
+        options.binary = binary;
+        const auto read = parse(*write_ply(made, 0, options));
+        ASSERT_TRUE(read.ok()) << why(read);
+        EXPECT_TRUE(validate(*read).ok()) << why(validate(*read));
+        EXPECT_EQ(triangle_number(*read->appearance.find("material"), 0), 0u);
+        EXPECT_EQ(triangle_number(*read->appearance.find("material"), 3), no_value);
+    }
+}
+
+TEST(Ply, AForeignPropertyCalledMaterialGoesByAnotherName)
+{
+    const auto read =
+        parse("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "property uchar group\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "property int material\nend_header\n0 0 0 1\n1 0 0 2\n1 1 0 3\n3 0 1 2 5\n");
+    ASSERT_TRUE(read.ok()) << why(read);
+    EXPECT_TRUE(validate(*read).ok()) << why(validate(*read));
+    EXPECT_EQ(triangle_number(*read->appearance.find("material_id"), 0), 5u);
+    EXPECT_NE(read->appearance.find("group_id"), nullptr);
+}
+
 TEST(Ply, EveryTruncationOfABinaryFileIsAnError)
 {
     const Bytes good = *write_ply(dressed(), 0, {});

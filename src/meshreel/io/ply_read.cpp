@@ -42,6 +42,7 @@ private:
     Status carry_vertices(std::vector<PlyColumn> columns);
     void carry_faces(std::vector<PlyColumn> columns);
     void carry_uvs();
+    void keep_names_apart(Attribute& attribute) const;
     void warn() const;
 
     PlyHeader header_;
@@ -183,9 +184,27 @@ Status PlyReader::carry_vertices(std::vector<PlyColumn> columns)
             exact = exact && static_cast<double>(mesh_.positions[v * 3 + axis]) == value;
         }
     if (!exact) tell(options_, "positions are rounded to float32");
-    for (Attribute& attribute : attributes_of(std::move(columns), Domain::vertex, options_))
+    for (Attribute& attribute : attributes_of(std::move(columns), Domain::vertex, options_)) {
+        keep_names_apart(attribute);
         mesh_.appearance.attributes.push_back(std::move(attribute));
+    }
     return Ok{};
+}
+
+/// Elsewhere "material" and "group" number the names of an Appearance; a property that does not goes by another name.
+void PlyReader::keep_names_apart(Attribute& attribute) const
+{
+    if (attribute.name != "material" && attribute.name != "group") return;
+    const std::size_t names = (attribute.name == "material" ? header_.materials : header_.groups).size();
+    bool fits = attribute.domain == Domain::triangle && attribute.type == Scalar::u32 && attribute.components == 1;
+    for (std::size_t i = 0; fits && i < attribute.value_count(); ++i) {
+        const std::int64_t number = attribute_integer(attribute, i, 0);
+        fits = number == no_value || number < static_cast<std::int64_t>(names);
+    }
+    if (fits) return;
+    tell(options_,
+         concat("the property ", attribute.name, " does not number names, and is carried as ", attribute.name, "_id"));
+    attribute.name += "_id";
 }
 
 void PlyReader::carry_faces(std::vector<PlyColumn> columns)
@@ -193,6 +212,7 @@ void PlyReader::carry_faces(std::vector<PlyColumn> columns)
     for (Attribute& attribute : attributes_of(std::move(columns), Domain::triangle, options_)) {
         if (mesh_.triangles.empty()) continue;
         if (mesh_.triangles.size() != faces_ || slivers_ > 0) attribute.indices = face_of_;
+        keep_names_apart(attribute);
         mesh_.appearance.attributes.push_back(std::move(attribute));
     }
 }

@@ -45,6 +45,12 @@ std::string_view type_name(Scalar type)
     return names[static_cast<std::size_t>(type)];
 }
 
+/// Numbers of materials and groups say themselves that there is none.
+bool has_none(const Attribute& attribute)
+{
+    return (attribute.name == "material" || attribute.name == "group") && attribute.type == Scalar::u32;
+}
+
 class PlyWriter {
 public:
     PlyWriter(const Animation& animation, std::size_t frame, bool binary)
@@ -95,7 +101,7 @@ void PlyWriter::choose()
     }
     for (const auto* table : {&of_vertices_, &of_faces_})
         for (const Columns& columns : *table)
-            if (std::ranges::find(columns.value, no_value) != columns.value.end())
+            if (!has_none(*columns.attribute) && std::ranges::find(columns.value, no_value) != columns.value.end())
                 incomplete_.push_back(columns.attribute);
 }
 
@@ -168,9 +174,9 @@ void PlyWriter::values(const Columns& columns, std::size_t row)
         if (binary_ && value != no_value)
             bytes_.insert(bytes_.end(), at, at + size);
         else if (binary_)
-            bytes_.insert(bytes_.end(), size, 0);
+            bytes_.insert(bytes_.end(), size, has_none(attribute) ? 0xff : 0);
         else if (value == no_value)
-            text_.text("0 ");
+            text_.text(has_none(attribute) ? "4294967295 " : "0 ");
         else if (attribute.type == Scalar::f32)
             float_number(attribute_float(attribute, value, c));
         else
