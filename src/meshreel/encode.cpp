@@ -63,21 +63,26 @@ public:
     {
         const Quality& quality = options_.quality;
         if (quality.bases || quality.step) {
-            MESHREEL_CHECK(try_settings(by_hand()));
+            try_settings(by_hand());
             return finished();
         }
-        const bool by_kg = quality.kg && norm() > 0;
-        const double target = by_kg ? *quality.kg : largest_allowed();
-        // The search estimates; what counts is measured on the file. Where they differ the search aims anew.
-        double aim = target;
-        for (int turn = 0; turn < 5; ++turn) {
-            MESHREEL_CHECK(search(by_kg, aim, turn == 0));
+        by_kg_ = quality.kg && norm() > 0;
+        target_ = by_kg_ ? *quality.kg : largest_allowed();
+        MESHREEL_TRY(codecs::Settings settings, found());
+        // The search measures in surface order and before rounding; what counts is measured on the file. Where the two
+        // differ, the step aims anew.
+        double aim = target_;
+        for (int turn = 0; turn < 6; ++turn) {
+            MESHREEL_TRY(const auto best, tune::coarsest(problem(aim, false), settings));
+            if (!best) break;
+            settings = best->settings;
+            try_settings(settings);
             MESHREEL_TRY(Encoded encoded, finished());
-            const double reached = by_kg ? encoded.kg : encoded.max_error;
-            if (reached <= target) return encoded;
-            aim *= 0.998 * target / reached;
+            const double reached = by_kg_ ? encoded.kg : encoded.max_error;
+            if (reached <= target_) return encoded;
+            aim *= 0.998 * target_ / reached;
         }
-        return Error{ErrorCode::missed, concat("the decoded file stays above the target of ", target), {}, {}, {}};
+        return Error{ErrorCode::missed, concat("the decoded file stays above the target of ", target_), {}, {}, {}};
     }
 
 private:
@@ -140,20 +145,17 @@ private:
     }
 
     /// Encodes all segments; keeps the payloads.
-    Status try_settings(const codecs::Settings& settings)
+    void try_settings(const codecs::Settings& settings)
     {
         payloads_.clear();
-        bases_ = 0;
-        squared_error_ = 0;
-        step_ = 0;
+        tried_ = {};
         for (const auto& encoder : encoders_) {
             codecs::Trial trial = encoder->encode(settings);
-            squared_error_ += trial.squared_error;
-            bases_ = std::max(bases_, trial.bases);
-            step_ = std::max(step_, trial.step);
+            tried_.squared_error += trial.squared_error;
+            tried_.bases = std::max(tried_.bases, trial.bases);
+            tried_.step = std::max(tried_.step, trial.step);
             payloads_.push_back(std::move(trial.payload));
         }
-        return Ok{};
     }
 
     std::uint64_t payload_size() const
@@ -175,18 +177,42 @@ private:
         return result;
     }
 
-    Result<tune::Attempt> attempt(const codecs::Settings& settings, bool by_kg)
+    double kg_of(double squared_error) const { return 100 * std::sqrt(squared_error) / norm(); } // (5.2)
+
+    tune::Attempt estimated(const codecs::Settings& settings) const
     {
-        MESHREEL_CHECK(try_settings(settings));
-        tune::Attempt attempt{settings, payload_size(), 0.0};
-        attempt.settings.bases = bases_;
-        if (by_kg) {
-            attempt.distortion = 100 * std::sqrt(squared_error_) / norm_;
-        } else {
-            MESHREEL_TRY(const Matrix<float> decoded, rebuilt());
-            attempt.distortion = largest_distance({frames_view(), decoded.view(), {}});
+        tune::Attempt attempt{settings, 0, 0.0};
+        double squared_error = 0;
+        attempt.settings.bases = 0;
+        for (const auto& encoder : encoders_) {
+            const codecs::Estimate estimate = encoder->estimate(settings);
+            attempt.size += estimate.size;
+            squared_error += estimate.squared_error;
+            attempt.settings.bases = std::max(*attempt.settings.bases, estimate.bases);
         }
+        attempt.distortion = kg_of(squared_error);
         return attempt;
+    }
+
+    Result<tune::Attempt> attempted(const codecs::Settings& settings)
+    {
+        try_settings(settings);
+        tune::Attempt attempt{settings, payload_size(), kg_of(tried_.squared_error)};
+        attempt.settings.bases = tried_.bases;
+        if (by_kg_) return attempt;
+        MESHREEL_TRY(const Matrix<float> decoded, rebuilt());
+        attempt.distortion = largest_distance({frames_view(), decoded.view(), {}});
+        return attempt;
+    }
+
+    /// A search for the KG error goes by estimates if that will do; the largest error needs the decoded positions.
+    tune::Problem problem(double target, bool estimates)
+    {
+        const auto attempt = [this, estimates](const codecs::Settings& settings) -> Result<tune::Attempt> {
+            return estimates && by_kg_ ? Result<tune::Attempt>(estimated(settings)) : attempted(settings);
+        };
+        if (by_kg_) return {attempt, target, {0.65}, true, options_.progress};
+        return {attempt, target, {0.65, 0.3, 0.15, 0.07, 0.03}, false, options_.progress};
     }
 
     MatrixView<const float> frames_view() const { return frames_.view(); }
@@ -196,27 +222,20 @@ private:
         return std::sqrt(metrics::vertex_error(pair, options_.threads).largest_square);
     }
 
-    /// Leaves the payloads of the best attempt.
-    Status search(bool by_kg, double target, bool first)
+    /// The settings of the smallest file, nearly; with more bases prepared where the usual ones are too few.
+    Result<codecs::Settings> found()
     {
-        norm_ = norm();
-        codecs::Settings start = first ? common() : best_;
-        if (first) start.step = by_kg ? target / 100 * norm_ / std::sqrt(double(frames_.values.size())) * 4 : target;
-        tune::Problem problem{[&](const codecs::Settings& settings) { return attempt(settings, by_kg); },
-                              target,
-                              {0.65},
-                              first,
-                              options_.progress};
-        if (!by_kg) problem.truncations = {0.65, 0.3, 0.15, 0.07, 0.03};
-        Result<tune::Attempt> found = tune::smallest(problem, start);
-        const std::size_t all_bases = std::min<std::size_t>(3 * segments_.front().count + 3, surface().vertex_count);
-        if (!found.ok() && found.error().code == ErrorCode::missed && max_bases_ < all_bases) {
+        codecs::Settings start = common();
+        const double typical = norm() / std::sqrt(static_cast<double>(frames_.values.size()));
+        start.step = by_kg_ ? target_ / 100 * typical * 6 : target_;
+        Result<tune::Attempt> best = tune::smallest(problem(target_, true), start);
+        const std::size_t all_bases = std::min<std::size_t>(3 * segments_.back().count, surface().vertex_count);
+        if (!best.ok() && best.error().code == ErrorCode::missed && max_bases_ < all_bases) {
             prepare(all_bases);
-            found = tune::smallest(problem, start);
+            best = tune::smallest(problem(target_, true), start);
         }
-        MESHREEL_TRY(const tune::Attempt best, std::move(found));
-        best_ = best.settings;
-        return try_settings(best_);
+        MESHREEL_TRY(const tune::Attempt attempt, std::move(best));
+        return attempt.settings;
     }
 
     Result<Bytes> assembled() const
@@ -261,8 +280,8 @@ private:
         encoded.max_error = largest_distance(metrics::pair_of(animation_, decoded));
         encoded.bpfv = 8.0 * static_cast<double>(encoded.bytes.size()) /
                        (static_cast<double>(animation_.frame_count()) * animation_.vertex_count); // (9.1)
-        encoded.bases = bases_;
-        encoded.step = step_ / diagonal();
+        encoded.bases = tried_.bases;
+        encoded.step = tried_.step / diagonal();
         return encoded;
     }
 
@@ -285,13 +304,11 @@ private:
     Matrix<float> frames_; ///< [F x 3W] in surface order
     std::vector<std::unique_ptr<codecs::Encoder>> encoders_;
     std::size_t max_bases_ = 0;
-    double norm_ = 0.0;
+    bool by_kg_ = true;
+    double target_ = 0.0; ///< KG error in percent, or largest error in model units
 
-    codecs::Settings best_;
     std::vector<Bytes> payloads_; ///< of the latest attempt, one a segment
-    double squared_error_ = 0.0;
-    std::uint32_t bases_ = 0;
-    double step_ = 0.0;
+    codecs::Trial tried_;         ///< sums and extremes of it
 };
 
 Status check_quality(const Quality& quality)

@@ -123,39 +123,69 @@ Status read_basis(const Payload& payload, Basis& basis)
 class CoddyacEncoder : public Encoder {
 public:
     CoddyacEncoder(const Sequence& sequence, std::size_t max_bases, Threads threads)
-        : sequence_(sequence), pca_(linalg::pca_of_trajectories(sequence.frames, max_bases, threads)),
-          mean_absolute_(
-              linalg::mean_absolute(linalg::project(sequence.frames, pca_.mean, pca_.basis.view(), threads).C.view()))
+        : sequence_(sequence), pca_(linalg::pca_of_trajectories(sequence.frames, max_bases, threads))
     {
+        const Matrix<double> C = linalg::project(sequence.frames, pca_.mean, pca_.basis.view(), threads).C;
+        mean_absolute_ = linalg::mean_absolute(C.view());
+        coefficients_ = Matrix<float>(C.rows, C.cols);
+        std::copy(C.values.begin(), C.values.end(), coefficients_.values.begin());
     }
 
     double energy() const override { return pca_.energy; }
 
+    Estimate estimate(const Settings& settings) const override
+    {
+        CodedBasis coded = code_basis(settings);
+        const std::size_t K = coded.payload.bases;
+        Matrix<double> wanted(coefficients_.rows, K);
+        for (std::size_t v = 0; v < wanted.rows; ++v) std::copy_n(coefficients_.row(v).data(), K, wanted.row(v).data());
+        Matrix<double> C = wanted;
+        const std::size_t size = coded.bits.size() + write_residuals(coded.payload, C.view()).size();
+        double error = linalg::squared_error_of_basis(pca_, C.rows, coded.basis.mean, coded.basis.rows.view());
+        for (std::size_t i = 0; i < C.values.size(); ++i)
+            error += (wanted.values[i] - C.values[i]) * (wanted.values[i] - C.values[i]);
+        return {size, coded.payload.bases, error};
+    }
+
     Trial encode(const Settings& settings) const override
     {
-        const std::size_t K = bases(settings), n = pca_.mean.size();
-        const double W = sequence_.surface.vertex_count, D = step(settings);
-        Basis basis{pca_.mean, Matrix<double>(K, n)};
-        std::copy_n(pca_.basis.values.begin(), K * n, basis.rows.values.begin());
-        Payload payload{static_cast<std::uint32_t>(K), D, settings.entropy, {}, {}, {}};
-        payload.law =
-            basis_law(settings.basis, settings.basis_ratio * D / std::sqrt(W), std::span(mean_absolute_).first(K));
-        const Bytes basis_bits = write_basis(payload.law, settings.entropy, basis);
-
-        linalg::Projection projection =
-            linalg::project(sequence_.frames, basis.mean, basis.rows.view(), settings.threads);
+        CodedBasis coded = code_basis(settings);
+        const MatrixView<const double> basis = coded.basis.rows.view();
+        linalg::Projection projection = linalg::project(sequence_.frames, coded.basis.mean, basis, settings.threads);
         const Matrix<double> wanted = projection.C;
-        const Bytes residual_bits = write_residuals(payload, projection.C.view());
-        payload.basis_bits = basis_bits;
-        payload.residual_bits = residual_bits;
-        Result<Bytes> bytes = container::write_fields(payload);
+        const Bytes residual_bits = write_residuals(coded.payload, projection.C.view());
+        coded.payload.basis_bits = coded.bits;
+        coded.payload.residual_bits = residual_bits;
+        Result<Bytes> bytes = container::write_fields(coded.payload);
         assert(bytes.ok());
-        return {*std::move(bytes), payload.bases, payload.step,
-                projection.squared_error +
-                    linalg::squared_distance(wanted.view(), projection.C.view(), basis.rows.view())};
+        return {*std::move(bytes), coded.payload.bases, coded.payload.step,
+                projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), basis)};
     }
 
 private:
+    /// A basis as the decoder will see it, its bits, and the payload's head that says how.
+    struct CodedBasis {
+        Payload payload;
+        Basis basis;
+        Bytes bits;
+    };
+
+    CodedBasis code_basis(const Settings& settings) const
+    {
+        const std::size_t K = bases(settings), n = pca_.mean.size();
+        const double W = sequence_.surface.vertex_count;
+        CodedBasis coded;
+        coded.payload.bases = static_cast<std::uint32_t>(K);
+        coded.payload.step = step(settings);
+        coded.payload.entropy = settings.entropy;
+        coded.payload.law = basis_law(settings.basis, settings.basis_ratio * coded.payload.step / std::sqrt(W),
+                                      std::span(mean_absolute_).first(K));
+        coded.basis = {pca_.mean, Matrix<double>(K, n)};
+        std::copy_n(pca_.basis.values.begin(), K * n, coded.basis.rows.values.begin());
+        coded.bits = write_basis(coded.payload.law, settings.entropy, coded.basis);
+        return coded;
+    }
+
     std::size_t bases(const Settings& settings) const
     {
         if (settings.bases) return std::min<std::size_t>(*settings.bases, pca_.basis.rows);
@@ -186,6 +216,7 @@ private:
     Sequence sequence_;
     linalg::Pca pca_;
     std::vector<double> mean_absolute_; ///< a_i (8.24), [all components]
+    Matrix<float> coefficients_;        ///< C [W x all components] in the exact basis, for estimates
 };
 
 std::unique_ptr<Encoder> prepare(const Sequence& sequence, std::size_t max_bases, Threads threads)

@@ -14,6 +14,8 @@ namespace {
 
 using codecs::Settings;
 
+constexpr double loose = 0.93, tight = 0.99; // how far below the target a step may end
+
 /// Smaller is better; none is worst.
 bool better(const std::optional<Attempt>& a, const std::optional<Attempt>& b)
 {
@@ -73,14 +75,13 @@ private:
 template <class Vary>
 Status descend(Search& search, Attempt& best, const Vary& vary)
 {
-    constexpr double tolerance = 0.992;
     constexpr int most_moves = 3;
     for (int direction : {-1, 1}) {
         bool moved = false;
         for (int move = 0; move < most_moves; ++move) {
             Settings settings = best.settings;
             if (!vary(settings, direction)) break;
-            MESHREEL_TRY(const std::optional<Attempt> attempt, search.solve(settings, tolerance));
+            MESHREEL_TRY(const std::optional<Attempt> attempt, search.solve(settings, tight));
             if (!better(attempt, best)) break;
             best = *attempt;
             moved = true;
@@ -107,6 +108,11 @@ bool vary_ratio(Settings& settings, int direction)
 
 } // namespace
 
+Result<std::optional<Attempt>> coarsest(const Problem& problem, const Settings& settings)
+{
+    return Search(problem).solve(settings, tight);
+}
+
 Result<Attempt> smallest(const Problem& problem, Settings start)
 {
     Search search(problem);
@@ -114,7 +120,7 @@ Result<Attempt> smallest(const Problem& problem, Settings start)
     for (double truncation : problem.truncations) {
         start.truncation = truncation;
         start.bases.reset();
-        MESHREEL_TRY(const std::optional<Attempt> attempt, search.solve(start, 0.97));
+        MESHREEL_TRY(const std::optional<Attempt> attempt, search.solve(start, loose));
         if (best && !better(attempt, best)) break;
         if (attempt) {
             best = attempt;
@@ -125,7 +131,7 @@ Result<Attempt> smallest(const Problem& problem, Settings start)
         return Error{
             ErrorCode::missed, concat("no setting of the codec reaches the target of ", problem.target), {}, {}, {}};
     if (!problem.refine) return *best;
-    MESHREEL_TRY(const std::optional<Attempt> exact, search.solve(best->settings, 0.992));
+    MESHREEL_TRY(const std::optional<Attempt> exact, search.solve(best->settings, tight));
     if (better(exact, best)) best = exact;
     MESHREEL_CHECK(descend(search, *best, vary_bases));
     MESHREEL_CHECK(descend(search, *best, vary_ratio));

@@ -33,4 +33,8 @@ struct Problem {
 /// @fails missed: even the finest steps stay above the target; whatever attempt fails with.
 Result<Attempt> smallest(const Problem& problem, codecs::Settings start);
 
+/// The attempt with the coarsest step whose distortion is at most the target, all other settings given; none where the
+/// finest steps stay above it. settings.step is the first guess.
+Result<std::optional<Attempt>> coarsest(const Problem& problem, const codecs::Settings& settings);
+
 } // namespace meshreel::tune

@@ -1,0 +1,17 @@
+/// Feeds any bytes to the front door's decoder and inspectors.
+// SPDX-License-Identifier: MIT
+#include "meshreel/meshreel.h"
+
+using namespace meshreel;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    DecodeOptions options;
+    options.limits.max_memory = 64u << 20;
+    options.threads = {1};
+    const ByteView bytes{data, size};
+    const auto animation = decode(bytes, options);
+    if (animation.ok() && !validate(*animation).ok()) __builtin_trap();
+    if (info(bytes, options.limits).ok() && bytes.empty()) __builtin_trap();
+    return 0;
+}
