@@ -60,7 +60,7 @@ TEST(Off, WritingAndReadingGivesTheSameBits)
     attributes.push_back({"color0", Domain::vertex, Scalar::u8, 4, true, Bytes(16, 77), {}});
     attributes.push_back(float_attribute("uv0", Domain::vertex, 2, std::span(made.positions).first(8)));
     attributes.push_back(
-        float_attribute("face_color", Domain::triangle, 3, std::vector<float>{1, 1, 0}, {0, 0, no_value, 0}));
+        indexed(float_attribute("face_color", Domain::triangle, 3, std::vector<float>{1, 1, 0}), {0, 0, no_value, 0}));
     const auto read = parse(text_of(*write_off(made, 0, {})));
     ASSERT_TRUE(read.ok()) << why(read);
     EXPECT_TRUE(same_bits(read->positions, made.positions));

@@ -103,7 +103,7 @@ TEST(Ply, TextureCoordinatesOfCornersSurvive)
     std::vector<std::uint32_t> indices(12);
     for (std::uint32_t i = 0; i < 12; ++i) indices[i] = i * 5 % 6;
     made.appearance.attributes.push_back(
-        float_attribute("uv0", Domain::corner, 2, std::span(made.positions).first(12), indices));
+        indexed(float_attribute("uv0", Domain::corner, 2, std::span(made.positions).first(12)), indices));
     const auto read = parse(*write_ply(made, 0, {}));
     ASSERT_TRUE(read.ok()) << why(read);
     const Attribute* uvs = read->appearance.find("uv0");

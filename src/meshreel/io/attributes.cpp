@@ -64,10 +64,15 @@ void append_little(Bytes& bytes, std::uint16_t number)
     append_bits(bytes, number);
 }
 
-Attribute float_attribute(std::string name, Domain domain, std::uint8_t components, std::span<const float> values,
-                          std::vector<std::uint32_t> indices)
+Attribute indexed(Attribute attribute, std::vector<std::uint32_t> indices)
 {
-    Attribute attribute{std::move(name), domain, Scalar::f32, components, false, {}, std::move(indices)};
+    attribute.indices = std::move(indices);
+    return attribute;
+}
+
+Attribute float_attribute(std::string name, Domain domain, std::uint8_t components, std::span<const float> values)
+{
+    Attribute attribute{std::move(name), domain, Scalar::f32, components, false, {}, {}};
     attribute.values.reserve(values.size() * 4);
     for (float value : values) append_little(attribute.values, value);
     return attribute;

@@ -13,9 +13,11 @@ namespace meshreel::io {
 
 constexpr std::uint32_t no_value = 0xffffffff; ///< this element has no value
 
-/// A table of floats as an attribute. `indices` may be empty.
-Attribute float_attribute(std::string name, Domain domain, std::uint8_t components, std::span<const float> values,
-                          std::vector<std::uint32_t> indices = {});
+/// A table of floats as an attribute, a value an element.
+Attribute float_attribute(std::string name, Domain domain, std::uint8_t components, std::span<const float> values);
+
+/// The same attribute, each element with the place of its value in the table.
+Attribute indexed(Attribute attribute, std::vector<std::uint32_t> indices);
 
 /// One number a triangle, such as material and group: without indices where every triangle has one.
 /// @param numbers  [T], no_value where a triangle has none.

@@ -163,7 +163,7 @@ Status Md2Reader::carry()
     for (std::size_t i = 0; i < uvs.size(); ++i)
         uvs[i] = static_cast<float>(number_at<std::int16_t>(sts.data() + 2 * i, ByteOrder::little)) / size[i % 2];
     if (!uvs.empty() && !animation_.triangles.empty())
-        appearance.attributes.push_back(float_attribute("uv0", Domain::corner, 2, uvs, std::move(st_of_)));
+        appearance.attributes.push_back(indexed(float_attribute("uv0", Domain::corner, 2, uvs), std::move(st_of_)));
     BinaryReader names(skins, ByteOrder::little);
     for (std::int32_t i = 0; i < header_.skins; ++i) {
         MESHREEL_TRY(std::string name, names.name(skin_size, "skins"));

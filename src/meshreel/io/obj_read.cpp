@@ -259,9 +259,9 @@ void ObjReader::carry_corners(std::string name, CornerTable& table)
         for (std::size_t i = 0; i < table.count; ++i)
             std::copy_n(table.values.begin() + i * 3, 2, table.values.begin() + i * 2);
     table.values.resize(table.count * components);
-    mesh_.appearance.attributes.push_back(float_attribute(std::move(name), Domain::corner,
-                                                          static_cast<std::uint8_t>(components), table.values,
-                                                          std::move(table.indices)));
+    mesh_.appearance.attributes.push_back(
+        indexed(float_attribute(std::move(name), Domain::corner, static_cast<std::uint8_t>(components), table.values),
+                std::move(table.indices)));
 }
 
 void ObjReader::carry_triangles(std::string name, const std::vector<std::uint32_t>& numbers)
@@ -280,8 +280,9 @@ void ObjReader::carry()
                 std::copy_n(colors_.begin() + i * 4, 3, colors_.begin() + i * 3);
         colors_.resize(colors_.size() / 4 * color_components_);
         if (std::ranges::find(color_of_, no_value) == color_of_.end()) color_of_.clear();
-        mesh_.appearance.attributes.push_back(float_attribute(
-            "color0", Domain::vertex, static_cast<std::uint8_t>(color_components_), colors_, std::move(color_of_)));
+        mesh_.appearance.attributes.push_back(
+            indexed(float_attribute("color0", Domain::vertex, static_cast<std::uint8_t>(color_components_), colors_),
+                    std::move(color_of_)));
     }
     if (!materials_.names.empty()) carry_triangles("material", material_of_);
     if (!groups_.names.empty()) carry_triangles("group", group_of_);

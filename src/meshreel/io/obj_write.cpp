@@ -159,7 +159,7 @@ Result<Bytes> write_obj(const Animation& animation, std::size_t frame, const Sav
 Status save_obj(const Animation& animation, const std::string& path, const SaveOptions& options)
 {
     FileSet files(options.overwrite);
-    MESHREEL_CHECK(add_sequence(files, animation, path, options, write_obj));
+    MESHREEL_CHECK(add_sequence(files, animation, {path, write_obj}, options));
     const std::string folder = path.substr(0, path.rfind('/') + 1);
     for (const Asset& asset : animation.appearance.assets) {
         if (asset.mime_type != library_type || asset.bytes.empty()) continue;

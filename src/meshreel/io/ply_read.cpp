@@ -224,7 +224,8 @@ void PlyReader::carry_uvs()
     for (std::size_t i = 0; i < uv_of_.size(); ++i) in_order = in_order && uv_of_[i] == i;
     if (in_order) uv_of_.clear();
     std::string name = mesh_.appearance.find("uv0") ? "uv1" : "uv0";
-    mesh_.appearance.attributes.push_back(float_attribute(std::move(name), Domain::corner, 2, uvs_, std::move(uv_of_)));
+    mesh_.appearance.attributes.push_back(
+        indexed(float_attribute(std::move(name), Domain::corner, 2, uvs_), std::move(uv_of_)));
 }
 
 void PlyReader::warn() const

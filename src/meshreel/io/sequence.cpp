@@ -145,9 +145,10 @@ Result<std::string> first_file(const std::string& path, const LoadOptions& optio
     return files[chosen.first].path;
 }
 
-Status add_sequence(FileSet& files, const Animation& animation, const std::string& path, const SaveOptions& options,
-                    WriteMesh write)
+Status add_sequence(FileSet& files, const Animation& animation, const SequenceTarget& target,
+                    const SaveOptions& options)
 {
+    const std::string& path = target.path;
     MESHREEL_TRY(const auto pattern, parse_pattern(path));
     const std::size_t frames = animation.frame_count();
     if (pattern ? !pattern->digits : frames != 1)
@@ -160,7 +161,7 @@ Status add_sequence(FileSet& files, const Animation& animation, const std::strin
             {}};
     for (std::size_t f = 0; f < frames; ++f) {
         report(options.progress, "writing", static_cast<double>(f) / static_cast<double>(frames));
-        MESHREEL_TRY(const Bytes bytes, in_file(write(animation, f, options), path));
+        MESHREEL_TRY(const Bytes bytes, in_file(target.write(animation, f, options), path));
         MESHREEL_CHECK(files.add(pattern ? pattern->path(f) : path, bytes));
     }
     return Ok{};
@@ -169,7 +170,7 @@ Status add_sequence(FileSet& files, const Animation& animation, const std::strin
 Status save_sequence(const Animation& animation, const std::string& path, const SaveOptions& options, WriteMesh write)
 {
     FileSet files(options.overwrite);
-    MESHREEL_CHECK(add_sequence(files, animation, path, options, write));
+    MESHREEL_CHECK(add_sequence(files, animation, {path, write}, options));
     return files.commit();
 }
 

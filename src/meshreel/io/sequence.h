@@ -22,10 +22,16 @@ Result<Animation> load_sequence(const std::string& path, const LoadOptions& opti
 /// The path of the first file that load_sequence would read.
 Result<std::string> first_file(const std::string& path, const LoadOptions& options);
 
+/// Where frames go and how one becomes bytes.
+struct SequenceTarget {
+    const std::string& path; ///< of one file, or a pattern
+    WriteMesh write;
+};
+
 /// Writes a file, or a file a frame where the path is a pattern (numbers from 0) into `files`; nothing appears yet.
 /// @fails usage: several frames and no pattern; io.
-Status add_sequence(FileSet& files, const Animation& animation, const std::string& path, const SaveOptions& options,
-                    WriteMesh write);
+Status add_sequence(FileSet& files, const Animation& animation, const SequenceTarget& target,
+                    const SaveOptions& options);
 
 /// The same, and makes all files appear.
 Status save_sequence(const Animation& animation, const std::string& path, const SaveOptions& options, WriteMesh write);
