@@ -85,7 +85,8 @@ void code_lengths(Coder& coder, TableModels& models, std::span<std::uint8_t> len
         const std::uint8_t guess = forecast(lengths, i);
         LevelModel& model = models.change[guess == 0 ? 0 : i > 0 && lengths[i - 1] == 0 ? 1 : 2];
         const std::int32_t change = model.code(coder, lengths[i] - guess);
-        lengths[i] = static_cast<std::uint8_t>(std::clamp(guess + change, 0, longest_code));
+        const std::int32_t length = std::clamp(change, -longest_code, longest_code) + guess;
+        lengths[i] = static_cast<std::uint8_t>(std::clamp(length, 0, longest_code));
     }
 }
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <optional>
 
-#include "meshreel/base/text.h"
 #include "meshreel/coding/model.h"
 #include "meshreel/coding/varint.h"
 #include "meshreel/connectivity/adjacency.h"
@@ -20,6 +19,21 @@ namespace {
 /// What a new vertex's number is compared with when it cannot be guessed.
 enum class Reference : std::uint8_t { lowest, last_new, neighbour };
 constexpr std::uint32_t references = 3;
+
+/// What the encoder found best.
+struct Choice {
+    Reference reference = Reference::lowest;
+    bool from_last = false; ///< far triangles are counted from the last one, not from the newest of the frontier
+
+    template <class Coder>
+    void code(Coder& coder)
+    {
+        const std::uint32_t both = static_cast<std::uint32_t>(reference) << 1 | (from_last ? 1 : 0);
+        const std::uint32_t found = coder.raw(both, 3);
+        reference = static_cast<Reference>(found >> 1);
+        from_last = (found & 1) != 0;
+    }
+};
 
 /// The mesh, and what both sides know of the order so far.
 class Walked {
@@ -110,10 +124,7 @@ private:
 template <class Coder>
 class OrderCoder {
 public:
-    OrderCoder(Coder& coder, Walked& walked, Reference reference)
-        : coder_(coder), walked_(walked), reference_(reference)
-    {
-    }
+    OrderCoder(Coder& coder, Walked& walked, const Choice& choice) : coder_(coder), walked_(walked), choice_(choice) {}
 
     /// @param wanted  half-edge (of the turned triangles) at the first corner of the next triangle; its numbers.
     /// @return that half-edge, or none where the bytes are wrong; every corner has its number.
@@ -131,12 +142,13 @@ public:
             at_corner_[j] = walked_.number_at(corners[j]);
         }
         past_ = {first, past_[0]};
+        firsts_ = {at_corner_[0], firsts_[0], firsts_[1], firsts_[2]};
         return first;
     }
 
 private:
     // ---- which triangle ------------------------------------------------------------------------------------------
-    static constexpr std::uint8_t moves = 26;
+    static constexpr std::uint8_t moves = 32;
 
     std::uint32_t candidate(std::uint8_t move) const
     {
@@ -154,6 +166,10 @@ private:
         if (move == 21) return walked_.at_number(last_new_);
         if (move == 22) return newest(0);
         if (move == 23) return newest(walked_.frontier().size() - 1);
+        if (move == 26 || move == 27) return beside_in_frontier(h / 3, move == 26);
+        if (move == 28 || move == 29) return beside_in_frontier(last_far_, move == 28);
+        if (move == 30) return walked_.at_number(firsts_[0] + (firsts_[0] - firsts_[1]));
+        if (move == 31) return walked_.at_number(firsts_[1] + (firsts_[1] - firsts_[3]));
         return h / 3 + 1 < walked_.triangle_count() ? h / 3 + 1 : none;
     }
     static std::uint32_t turned(std::uint32_t h, std::uint32_t by) { return h - h % 3 + (h % 3 + by) % 3; }
@@ -162,6 +178,16 @@ private:
     {
         const RankSet& frontier = walked_.frontier();
         return age < frontier.size() ? walked_.stamped(frontier.at(frontier.size() - 1 - age)) : none;
+    }
+
+    /// The triangle that came to the frontier next after (or before) triangle k did.
+    std::uint32_t beside_in_frontier(std::uint32_t k, bool after) const
+    {
+        if (k == none || walked_.stamp(k) == none) return none;
+        const RankSet& frontier = walked_.frontier();
+        const std::uint32_t rank = frontier.rank(walked_.stamp(k));
+        if (after) return rank < frontier.size() ? walked_.stamped(frontier.at(rank)) : none;
+        return rank > 0 ? walked_.stamped(frontier.at(rank - 1)) : none;
     }
 
     std::uint32_t triangle(std::uint32_t wanted)
@@ -184,7 +210,7 @@ private:
             return k;
         }
         hits_ = {moves, hits_[0], hits_[1], hits_[2]};
-        return far_triangle(wanted);
+        return last_far_ = far_triangle(wanted);
     }
 
     Judge::Contexts contexts(std::uint32_t k, std::uint32_t alike, std::size_t place) const
@@ -197,8 +223,8 @@ private:
         }
         const std::uint32_t near = std::min(static_cast<std::uint32_t>(place), 3u);
         const std::uint32_t features = ((std::min(alike, 3u) * 4 + numbered) * 4 + beside) * 4 + near;
-        const std::uint32_t two = hits_[0] * 32u + hits_[1], three = two * 32u + hits_[2];
-        return {hits_[0] * 1u, two, three, three * 32u + hits_[3], features, two * 256u + features};
+        const std::uint32_t two = hits_[0] * 64u + hits_[1], three = two * 64u + hits_[2];
+        return {hits_[0] * 1u, two, three, three * 64u + hits_[3], features, two * 256u + features};
     }
 
     /// No candidate: by its place in the frontier, newest first, or among all that are left.
@@ -207,14 +233,22 @@ private:
         const RankSet &frontier = walked_.frontier(), &unvisited = walked_.unvisited();
         const bool near =
             frontier.size() > 0 && coder_.bit(in_frontier_, Coder::writes && walked_.stamp(wanted) != none);
-        if (near) {
-            const std::uint64_t age = Coder::writes ? frontier.size() - 1 - frontier.rank(walked_.stamp(wanted)) : 0;
-            const std::uint64_t found = age_.code(coder_, age);
-            return found < frontier.size() ? newest(static_cast<std::uint32_t>(found)) : none;
+        const RankSet& among = near ? frontier : unvisited;
+        const std::int64_t rank = !Coder::writes ? 0
+                                  : near         ? frontier.rank(walked_.stamp(wanted))
+                                                 : unvisited.rank(wanted);
+        std::int64_t from = near ? frontier.size() - 1 : 0; // the newest, the first
+        if (choice_.from_last && last_far_ != none) {
+            if (!near)
+                from = unvisited.rank(last_far_);
+            else if (walked_.stamp(last_far_) != none)
+                from = frontier.rank(walked_.stamp(last_far_));
         }
-        const std::uint64_t rank = Coder::writes ? unvisited.rank(wanted) : 0;
-        const std::uint64_t found = far_.code(coder_, rank);
-        return found < unvisited.size() ? unvisited.at(static_cast<std::uint32_t>(found)) : none;
+        const std::int64_t found =
+            from + coding::unzigzag(far_[near ? 1 : 0].code(coder_, coding::zigzag(rank - from)));
+        if (found < 0 || found >= among.size()) return none;
+        const std::uint32_t element = among.at(static_cast<std::uint32_t>(found));
+        return near ? walked_.stamped(element) : element;
     }
 
     // ---- which corner is first -----------------------------------------------------------------------------------
@@ -242,8 +276,8 @@ private:
                 (numbers[2] < numbers[0] ? 4u : 0u);
         const std::uint32_t sign = std::min(best, 3u), shape = (known * 8 + order) * 4 + sign;
         const Judge::Contexts seen = {
-            hits_[0] * 1u,          hits_[0] * 32u + hits_[1],       shape,
-            shape * 32u + hits_[0], (turns_ & 63u) * 32u + hits_[0], (turns_ & 15u) * 256u + shape};
+            hits_[0] * 1u,          hits_[0] * 64u + hits_[1],       shape,
+            shape * 64u + hits_[0], (turns_ & 63u) * 64u + hits_[0], (turns_ & 15u) * 256u + shape};
         const std::uint32_t turn = (wanted + 3 - base) % 3;
         const bool stays = rotations_.code(coder_, 0, seen, turn == 0);
         const bool one = !stays && rotations_.code(coder_, 1, seen, turn == 1);
@@ -324,8 +358,8 @@ private:
     std::uint32_t far_number(const std::array<std::uint32_t, 3>& corners, std::uint32_t j, std::uint32_t wanted)
     {
         const RankSet& unused = walked_.unused();
-        std::uint32_t from = reference_ == Reference::lowest ? 0 : last_new_;
-        for (std::uint32_t i = 1; i < 3 && reference_ == Reference::neighbour; ++i) {
+        std::uint32_t from = choice_.reference == Reference::lowest ? 0 : last_new_;
+        for (std::uint32_t i = 1; i < 3 && choice_.reference == Reference::neighbour; ++i) {
             const std::uint32_t number = walked_.number_at(corners[(j + 3 - i) % 3]);
             if (number == none) continue;
             from = number;
@@ -339,9 +373,11 @@ private:
 
     Coder& coder_;
     Walked& walked_;
-    Reference reference_;
-    std::array<std::uint32_t, 2> past_ = {none, none};            ///< first corners of the last two triangles
-    std::array<std::uint32_t, 3> at_corner_ = {none, none, none}; ///< numbers of the last triangle
+    Choice choice_;
+    std::array<std::uint32_t, 2> past_ = {none, none};               ///< first corners of the last two triangles
+    std::array<std::uint32_t, 3> at_corner_ = {none, none, none};    ///< numbers of the last triangle
+    std::array<std::uint32_t, 4> firsts_ = {none, none, none, none}; ///< first corners' numbers, newest first
+    std::uint32_t last_far_ = none;                                  ///< the last triangle that no move reached
     std::array<std::uint8_t, 4> hits_ = {moves, moves, moves, moves};
     std::array<std::uint8_t, 3> named_ = {guesses, guesses, guesses};
     std::uint32_t turns_ = 0, last_new_ = none, new_before_ = none;
@@ -349,7 +385,7 @@ private:
     std::array<TryOrder<guesses>, 3> guess_order_;
     Judge moves_, rotations_, names_;
     coding::Bit in_frontier_;
-    coding::NumberModel age_, far_, numbers_[3];
+    coding::NumberModel far_[2], numbers_[3];
 };
 
 /// The order that was lost: for each triangle of the input its half-edge in the turned shell.
@@ -361,11 +397,11 @@ std::vector<std::uint32_t> lost_order(const Adjacency& mesh, const Shelled& shel
     return first;
 }
 
-void write_with(coding::RangeEncoder& coder, Walked walked, const Shelled& shelled, Reference reference)
+void write_with(coding::RangeEncoder& coder, Walked walked, const Shelled& shelled, Choice choice)
 {
     const std::vector<std::uint32_t> first = lost_order(walked.mesh(), shelled);
-    coder.raw(static_cast<std::uint32_t>(reference), 2);
-    OrderCoder order(coder, walked, reference);
+    choice.code(coder);
+    OrderCoder order(coder, walked, choice);
     for (const std::uint32_t h : first) {
         Triangle numbers;
         const bool flipped = walked.mesh().flipped[h / 3] != 0;
@@ -382,21 +418,28 @@ void write_order(coding::RangeEncoder& coder, std::uint32_t vertex_count, const 
 {
     const Walked walked(vertex_count, *triangles_of(shelled.shell));
     std::optional<coding::RangeEncoder> best;
-    for (std::uint32_t reference = 0; reference < references; ++reference) {
-        coding::RangeEncoder attempt = coder;
-        write_with(attempt, walked, shelled, static_cast<Reference>(reference));
-        if (!best || attempt.size() < best->size()) best = std::move(attempt);
-    }
+    Choice chosen;
+    const auto attempt = [&](const Choice& choice) {
+        coding::RangeEncoder trial = coder;
+        write_with(trial, walked, shelled, choice);
+        if (best && trial.size() >= best->size()) return;
+        best = std::move(trial);
+        chosen = choice;
+    };
+    for (std::uint32_t reference = 0; reference < references; ++reference)
+        attempt({static_cast<Reference>(reference), false});
+    attempt({chosen.reference, true});
     coder = std::move(*best);
 }
 
 Result<std::vector<Triangle>> read_order(coding::RangeDecoder& coder, std::uint32_t vertex_count,
                                          std::span<const Triangle> triangles)
 {
-    const std::uint32_t reference = coder.raw(0, 2);
-    if (reference >= references) return bad_input(concat(reference, " is no reference"), "order");
+    Choice choice;
+    choice.code(coder);
+    if (static_cast<std::uint32_t>(choice.reference) >= references) return bad_input("no such reference", "order");
     Walked walked(vertex_count, triangles);
-    OrderCoder order(coder, walked, static_cast<Reference>(reference));
+    OrderCoder order(coder, walked, choice);
     std::vector<Triangle> ordered(triangles.size());
     for (Triangle& t : ordered) {
         const std::uint32_t h = order.next(0, {});

@@ -240,7 +240,7 @@ Result<Head> read_head(coding::VarintReader& bytes, const DecodeLimits& limits)
 }
 
 /// Bytes held at most while decoding, per element; measured from the containers of this room.
-constexpr std::uint64_t bytes_a_vertex = 100, bytes_a_triangle = 130, bytes_a_closed_triangle = 70;
+constexpr std::uint64_t bytes_a_vertex = 100, bytes_a_triangle = 180, bytes_a_closed_triangle = 70;
 
 Status enough_memory(const Head& head, const DecodeLimits& limits)
 {
