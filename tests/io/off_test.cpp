@@ -59,15 +59,16 @@ TEST(Off, WritingAndReadingGivesTheSameBits)
     attributes.push_back(float_attribute("normal", Domain::vertex, 3, made.positions));
     attributes.push_back({"color0", Domain::vertex, Scalar::u8, 4, true, Bytes(16, 77), {}});
     attributes.push_back(float_attribute("uv0", Domain::vertex, 2, std::span(made.positions).first(8)));
-    attributes.push_back(
-        indexed(float_attribute("face_color", Domain::triangle, 3, std::vector<float>{1, 1, 0}), {0, 0, no_value, 0}));
+    attributes.push_back(indexed(float_attribute("face_color", Domain::triangle, 3,
+                                                 std::vector<float>{1, std::numeric_limits<float>::infinity(), 0}),
+                                 {0, 0, no_value, 0}));
     const auto read = parse(text_of(*write_off(made, 0, {})));
     ASSERT_TRUE(read.ok()) << why(read);
     EXPECT_TRUE(same_bits(read->positions, made.positions));
     EXPECT_EQ(read->triangles, made.triangles);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read->appearance.attributes[i].values, attributes[i].values) << i;
     EXPECT_EQ(triangle_number(read->appearance.attributes[3], 2), no_value);
-    EXPECT_EQ(attribute_float(read->appearance.attributes[3], 2, 1), 1.0f);
+    EXPECT_EQ(attribute_float(read->appearance.attributes[3], 2, 1), std::numeric_limits<float>::infinity());
 }
 
 TEST(Off, ErrorsNameTheLineAndField)

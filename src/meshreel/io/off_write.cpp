@@ -50,7 +50,7 @@ void color(TextWriter& out, const Attribute& attribute, bool bytes, std::size_t 
         digits.number(attribute_float(attribute, value, c));
         const Bytes text = digits.take();
         const std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
-        out.text(view).text(view.find_first_of(".e") == std::string_view::npos ? ".0" : "");
+        out.text(view).text(view.find_first_of(".einf") == std::string_view::npos ? ".0" : "");
     }
 }
 

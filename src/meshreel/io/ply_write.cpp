@@ -85,6 +85,9 @@ private:
 /// Sorts the attributes into columns of vertices and of faces, the texture coordinates of corners, and the rest.
 void PlyWriter::choose()
 {
+    const Attribute* first_uvs = animation_.appearance.find("uv0");
+    const bool taken = first_uvs && vertex_values(*first_uvs, animation_); // by the vertices, as the reader has it
+    const std::string_view corner_uv_name = taken ? "uv1" : "uv0";
     for (const Attribute& attribute : animation_.appearance.attributes) {
         if (attribute.domain == Domain::triangle) {
             std::vector<std::uint32_t> value(animation_.triangles.size());
@@ -93,7 +96,7 @@ void PlyWriter::choose()
             of_faces_.push_back({&attribute, property_names(attribute), std::move(value)});
         } else if (auto value = vertex_values(attribute, animation_)) {
             of_vertices_.push_back({&attribute, property_names(attribute), std::move(*value)});
-        } else if (attribute.name == "uv0" && attribute.components == 2 && attribute.type == Scalar::f32) {
+        } else if (attribute.name == corner_uv_name && attribute.components == 2 && attribute.type == Scalar::f32) {
             corner_uvs_ = &attribute;
         } else {
             seamed_.push_back(&attribute);
