@@ -13,6 +13,7 @@
 #include "cli/numbers.h"
 #include "cli/source.h"
 #include "cli/verb.h"
+#include "meshreel/meshreel.h"
 #include "meshreel/metrics/metric.h"
 
 namespace meshreel::cli {
@@ -43,6 +44,12 @@ std::string option_of(const metrics::Metric& metric)
     return (more_is_better(metric) ? "--min-" : "--max-") + name;
 }
 
+/// A file of positions alone; the triangles it has were lent to it.
+bool is_point_cache(const Source& source)
+{
+    return source.format_name() == "pc2" || source.format_name() == "mdd";
+}
+
 struct Measured {
     const metrics::Metric* metric;
     double value;
@@ -68,19 +75,25 @@ public:
         app.add_option("--metric", chosen_, "only this metric; may be repeated; default: all")
             ->check(one_of(names))
             ->type_name("NAME");
+        app.add_option("--order", order_, "free: DISTORTED is a point cache decoded from a file made with --order free")
+            ->check(one_of({"keep", "free"}))
+            ->capture_default_str()
+            ->type_name("keep|free");
         original_.declare(app);
         for (const metrics::Metric& metric : metrics::all()) {
             Threshold& threshold = thresholds_.emplace_back(Threshold{&metric, option_of(metric), {}});
-            app.add_option(
-                   threshold.option, threshold.limit,
-                   fmt::format("exit 7 where {} is {} this", metric.title, more_is_better(metric) ? "below" : "above"))
-                ->type_name(metric.unit.empty() ? "X" : std::string(metric.unit))
+            app.add_option(threshold.option, threshold.limit,
+                           fmt::format("exit 7 where the {} is {} this{}{}", metric.title,
+                                       more_is_better(metric) ? "below" : "above", metric.unit.empty() ? "" : ", ",
+                                       metric.unit))
+                ->type_name("X")
                 ->group("Thresholds");
         }
         app.footer("Examples:\n"
                    "  meshreel compare walk.glb walk.reel\n"
                    "  meshreel compare motion.pc2 back.pc2 --mesh mesh.obj --max-kg 0.1\n"
-                   "  meshreel compare a.reel b.reel --metric kg --json\n");
+                   "  meshreel compare a.reel b.reel --metric kg --json\n"
+                   "  meshreel compare motion.pc2 free.pc2 --mesh mesh.obj --order free\n");
     }
 
     Result<Report> run(Console& console) override
@@ -88,14 +101,18 @@ public:
         const Stopwatch watch;
         Source distorted_source = original_;
         distorted_source.path = distorted_path_;
-        set_format(original_);
-        set_format(distorted_source);
-        MESHREEL_TRY(const Animation original, load(original_, console));
-        MESHREEL_TRY(const Animation distorted, load(distorted_source, console));
+        complete(original_);
+        complete(distorted_source);
+        MESHREEL_TRY(Animation original, load(original_, console));
+        MESHREEL_TRY(Animation distorted, load(distorted_source, console));
+        const bool free = is_free(original, distorted, distorted_source);
+        if (free) original = in_free_order(original, original_.threads);
+        if (free && is_point_cache(distorted_source)) distorted.triangles = original.triangles;
         MESHREEL_CHECK(in_file(metrics::comparable(original, distorted), distorted_path_));
         const std::vector<Measured> measured = measure(original, distorted, console);
         Json figures{{"schema", "meshreel.compare/1"}, {"original", original_.path}, {"distorted", distorted_path_}};
         add_counts(figures, original);
+        figures["order"] = free ? "free" : "keep";
         figures["metrics"] = Json::object();
         figures["units"] = Json::object();
         for (const auto& [metric, value] : measured) {
@@ -112,10 +129,23 @@ public:
     }
 
 private:
-    /// --format is for standard input and for names that say nothing; it overrules no extension.
-    void set_format(Source& source) const
+    /// --format is for standard input and for names that say nothing; it overrules no extension. --fps is for the one
+    /// of the two that is no .reel file.
+    void complete(Source& source) const
     {
         if (source.format_name().empty()) source.format = format_;
+        if (source.is_reel()) source.fps = 0.0;
+    }
+
+    /// Whether DISTORTED is numbered as a codec left it: said for a point cache, seen from the triangles of a file.
+    bool is_free(const Animation& original, const Animation& distorted, const Source& source) const
+    {
+        if (order_ == "free") return true;
+        const bool same_sizes = original.vertex_count == distorted.vertex_count &&
+                                original.frame_count() == distorted.frame_count() &&
+                                original.triangles.size() == distorted.triangles.size();
+        if (!source.is_reel() || !same_sizes || original.triangles == distorted.triangles) return false;
+        return in_free_order(original, original_.threads).triangles == distorted.triangles;
     }
 
     bool wanted(const metrics::Metric& metric) const
@@ -165,6 +195,7 @@ private:
     Source original_;
     std::string distorted_path_;
     std::string format_;
+    std::string order_ = "keep";
     std::vector<std::string> chosen_;
     std::deque<Threshold> thresholds_; ///< one a metric; options point into it
 };

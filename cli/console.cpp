@@ -12,33 +12,43 @@
 
 namespace meshreel::cli {
 
+namespace {
+
+/// What cannot be said is lost; the exit code still tells. (fmt::print would throw.)
+void put(std::string_view text)
+{
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+} // namespace
+
 Console::Console() : terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 void Console::error(std::string_view sentence)
 {
     clear_bar();
-    fmt::print(stderr, "meshreel: {}\n", sentence);
+    put(fmt::format("meshreel: {}\n", sentence));
 }
 
 void Console::warn(std::string_view sentence)
 {
     if (quiet) return;
     clear_bar();
-    fmt::print(stderr, "meshreel: warning: {}\n", sentence);
+    put(fmt::format("meshreel: warning: {}\n", sentence));
 }
 
 void Console::say(std::string_view text)
 {
     if (quiet || json) return;
     clear_bar();
-    fmt::print(stderr, "{}", text);
+    put(text);
 }
 
 void Console::detail(std::string_view sentence)
 {
     if (!verbose) return;
     clear_bar();
-    fmt::print(stderr, "meshreel: {}\n", sentence);
+    put(fmt::format("meshreel: {}\n", sentence));
 }
 
 Progress Console::progress()
@@ -55,7 +65,7 @@ void Console::draw(std::string_view stage, double fraction)
     constexpr int width = 30;
     const double done = std::clamp(std::isnan(fraction) ? 0.0 : fraction, 0.0, 1.0);
     const int filled = static_cast<int>(done * width);
-    fmt::print(stderr, "\r\x1b[K[{:=<{}}{:<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100.0 * done, stage);
+    put(fmt::format("\r\x1b[K[{:=<{}}{:<{}}] {:3.0f} %  {}", "", filled, "", width - filled, 100.0 * done, stage));
     std::fflush(stderr);
     bar_drawn_ = true;
     last_drawn_ = now;
@@ -64,7 +74,7 @@ void Console::draw(std::string_view stage, double fraction)
 void Console::clear_bar()
 {
     if (!bar_drawn_) return;
-    fmt::print(stderr, "\r\x1b[K");
+    put("\r\x1b[K");
     bar_drawn_ = false;
 }
 

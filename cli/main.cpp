@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/verb.h"
 #include "meshreel/base/check.h"
+#include "meshreel/version.h"
 
 namespace meshreel::cli {
 
@@ -23,8 +24,8 @@ constexpr const char* exit_codes = "Exit codes: 0 done, 1 usage, 2 file cannot b
 
 std::string overview()
 {
-    std::string text = "meshreel " MESHREEL_VERSION ": makes triangle-mesh animations small.\n\n"
-                       "Usage: meshreel VERB [OPTIONS] ...\n\nVerbs:\n";
+    std::string text = fmt::format("meshreel {}: makes triangle-mesh animations small.\n\n", version);
+    text += "Usage: meshreel VERB [OPTIONS] ...\n\nVerbs:\n";
     for (const VerbRow& row : verbs()) text += fmt::format("  {:<10} {}\n", row.name, row.summary);
     text += "\n  meshreel VERB --help    options and examples of a verb\n"
             "  meshreel --version      the version\n\n"
@@ -149,7 +150,7 @@ int dispatch(std::vector<std::string> arguments, Console& console)
         arguments = {"--help"};
     }
     if (first == "--help" || first == "-h" || first == "help") return tell({{}, overview(), true}, console);
-    if (first == "--version") return tell({{}, "meshreel " MESHREEL_VERSION "\n", true}, console);
+    if (first == "--version") return tell({{}, fmt::format("meshreel {}\n", version), true}, console);
     for (const VerbRow& row : verbs())
         if (row.name == first) return run_verb(row, arguments, console);
     return fail(unknown_verb(first), console);

@@ -34,17 +34,21 @@ CLI::Validator positive();
 /// Accepts these words, and guesses which of them was meant by another one.
 CLI::Validator one_of(std::vector<std::string> words);
 
+/// An option's name and what its help says.
+struct Described {
+    std::string name, help;
+};
+
 /// An option whose text a function reads; its error is a usage error that names the option.
 template <class Value, class Parse>
-CLI::Option* add_parsed(CLI::App& app, const std::string& name, Value& value, const Parse& parse,
-                        const std::string& help)
+CLI::Option* add_parsed(CLI::App& app, const Described& option, Value& value, const Parse& parse)
 {
-    const auto read = [&value, parse, name](const std::string& text) {
+    const auto read = [&value, parse, name = option.name](const std::string& text) {
         auto parsed = parse(text);
         if (!parsed.ok()) throw CLI::ValidationError(name, parsed.error().message);
         value = *std::move(parsed);
     };
-    return app.add_option_function<std::string>(name, read, help);
+    return app.add_option_function<std::string>(option.name, read, option.help);
 }
 
 } // namespace meshreel::cli

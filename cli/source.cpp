@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/figures.h"
 #include "cli/numbers.h"
 #include "cli/reel_file.h"
 
@@ -48,6 +49,18 @@ Result<Animation> load_reel_source(const Source& source, Console& console)
     return in_file(chosen_frames(std::move(animation), source.frames), source.path);
 }
 
+Result<Animation> load_any(const Source& source, Console& console)
+{
+    if (source.is_reel()) return load_reel_source(source, console);
+    if (source.path == "-" && source.format.empty())
+        return Error{ErrorCode::usage, "standard input has no extension; say its format by --format", {}, "-"};
+    if (source.format.empty()) MESHREEL_CHECK(check_extension(source.path));
+    const io::LoadOptions options = load_options(source, console);
+    const io::Format* const format = source.format.empty() ? nullptr : format_called(source.format);
+    if (format != nullptr) return load_as(*format, source, options);
+    return in_file(io::load(source.path, options), source.path);
+}
+
 } // namespace
 
 void Source::declare(CLI::App& app)
@@ -58,7 +71,7 @@ void Source::declare(CLI::App& app)
     app.add_option("--fps", fps, "frames a second: sampling rate of a skinned file, timing of a sequence")
         ->check(positive())
         ->type_name("N");
-    add_parsed(app, "--frames", frames, parse_frames, "frames to take, from 0, the last included")
+    add_parsed(app, {"--frames", "frames to take, from 0, the last included"}, frames, parse_frames)
         ->type_name("A:B:STEP");
     declare_limits(app);
 }
@@ -66,7 +79,8 @@ void Source::declare(CLI::App& app)
 void Source::declare_limits(CLI::App& app)
 {
     app.add_option("--threads", threads.count, "threads to use; default: one a core")->type_name("N");
-    add_parsed(app, "--max-memory", limits.max_memory, parse_memory, "memory that a file may make us hold; default 16G")
+    add_parsed(app, {"--max-memory", "memory that a file may make us hold; default 16G"}, limits.max_memory,
+               parse_memory)
         ->type_name("SIZE");
 }
 
@@ -100,15 +114,24 @@ const io::Format* format_called(const std::string& name)
     return nullptr;
 }
 
+Status check_extension(const std::string& path)
+{
+    Source named;
+    named.path = path;
+    if (!named.format_name().empty()) return Ok{};
+    std::string known = ".reel";
+    for (const io::Format& row : io::formats())
+        for (const std::string_view extension : row.extensions) known += fmt::format(" .{}", extension);
+    return Error{ErrorCode::unsupported, fmt::format("no format has this extension; known are {}", known), {}, path};
+}
+
 Result<Animation> load(const Source& source, Console& console)
 {
-    if (source.is_reel()) return load_reel_source(source, console);
-    if (source.path == "-" && source.format.empty())
-        return Error{ErrorCode::usage, "standard input has no extension; say its format by --format", {}, "-"};
-    const io::LoadOptions options = load_options(source, console);
-    const io::Format* const format = source.format.empty() ? nullptr : format_called(source.format);
-    if (format != nullptr) return load_as(*format, source, options);
-    return in_file(io::load(source.path, options), source.path);
+    const Stopwatch watch;
+    Result<Animation> animation = load_any(source, console);
+    if (animation.ok())
+        console.detail(fmt::format("{}: read in {:.3f} s: {}", source.path, watch.seconds(), counts_text(*animation)));
+    return animation;
 }
 
 Result<Animation> chosen_frames(Animation animation, const io::FrameRange& frames)

@@ -41,6 +41,9 @@ void declare_format(CLI::App& app, const std::string& option, std::string& forma
 /// The row of the format of that name, or null.
 const io::Format* format_called(const std::string& name);
 
+/// Says that a path's extension names a format, .reel among them. @fails unsupported, listing what is known.
+Status check_extension(const std::string& path);
+
 /// Reads any animation; the result is valid. @fails as io::load and decode do, naming the file.
 Result<Animation> load(const Source& source, Console& console);
 

@@ -156,7 +156,7 @@ std::string Target::format_name() const
 Result<Go> prepare(const Target& target, std::initializer_list<std::string> inputs, const Console& console)
 {
     if (target.path == "-") MESHREEL_CHECK(check_standard_output(target, console));
-    if (target.path != "-" && target.format_name().empty()) MESHREEL_CHECK(io::format_of(target.path));
+    if (target.path != "-" && target.format.empty()) MESHREEL_CHECK(check_extension(target.path));
     MESHREEL_TRY(const Go go, prepare_path(target, target.path, inputs));
     if (go == Go::skip || target.mesh_out.empty()) return go;
     if (same_file(target.path, target.mesh_out)) return usage("is named twice as output", target.mesh_out);
@@ -165,13 +165,15 @@ Result<Go> prepare(const Target& target, std::initializer_list<std::string> inpu
 
 Status save(const Animation& animation, const Target& target, Console& console)
 {
-    if (target.mesh_out.empty()) return save_animation(animation, target, console);
+    const Stopwatch watch;
+    const bool with_mesh = !target.mesh_out.empty();
     io::SaveOptions options;
     options.overwrite = target.overwrite;
-    MESHREEL_CHECK(in_file(io::save(first_frame(animation), target.mesh_out, options), target.mesh_out));
-    const Status saved = save_animation(animation, target, console);
+    if (with_mesh) MESHREEL_CHECK(in_file(io::save(first_frame(animation), target.mesh_out, options), target.mesh_out));
+    Status saved = save_animation(animation, target, console);
     std::error_code ignored;
-    if (!saved.ok()) fs::remove(target.mesh_out, ignored); // nothing is left behind
+    if (with_mesh && !saved.ok()) fs::remove(target.mesh_out, ignored); // nothing is left behind
+    if (saved.ok()) console.detail(fmt::format("{}: written in {:.3f} s", target.path, watch.seconds()));
     return saved;
 }
 

@@ -6,6 +6,10 @@
 
 namespace meshreel::cli {
 
+std::unique_ptr<Verb> make_encode();
+std::unique_ptr<Verb> make_decode();
+std::unique_ptr<Verb> make_info();
+std::unique_ptr<Verb> make_explain();
 std::unique_ptr<Verb> make_validate();
 std::unique_ptr<Verb> make_compare();
 std::unique_ptr<Verb> make_convert();
@@ -15,6 +19,10 @@ std::unique_ptr<Verb> make_picture();
 std::span<const VerbRow> verbs()
 {
     static constexpr std::array rows{
+        VerbRow{"encode", "compress an animation into a .reel file", make_encode},
+        VerbRow{"decode", "bring an animation back from a .reel file", make_decode},
+        VerbRow{"info", "take a quick look at a file", make_info},
+        VerbRow{"explain", "show every field of a .reel file with its byte offset", make_explain},
         VerbRow{"validate", "check a file and say what it is and what is wrong with it", make_validate},
         VerbRow{"compare", "measure how far one animation is from another", make_compare},
         VerbRow{"convert", "turn an animation from any format into any other", make_convert},

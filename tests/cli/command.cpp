@@ -40,7 +40,7 @@ void spill(const fs::path& path, const std::string& bytes)
     stream(streams / "in", O_RDONLY, STDIN_FILENO);
     stream(start.output_file.empty() ? streams / "out" : fs::path(start.output_file), O_WRONLY | O_CREAT,
            STDOUT_FILENO);
-    stream(streams / "err", O_WRONLY | O_CREAT, STDERR_FILENO);
+    stream(start.error_file.empty() ? streams / "err" : fs::path(start.error_file), O_WRONLY | O_CREAT, STDERR_FILENO);
     if (::chdir(folder.c_str()) != 0) ::_exit(126);
     const struct rlimit limit {
         start.largest_file, start.largest_file

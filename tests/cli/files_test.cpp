@@ -71,6 +71,13 @@ TEST_F(Files, AFullDeviceOnStandardOutputIsAnError)
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
+TEST_F(Files, AFullDeviceOnStandardErrorDoesNoHarm)
+{
+    EXPECT_EQ(run("generate wave a.mdd --vertices 50", {.error_file = "/dev/full"}).exit_code, 0);
+    EXPECT_EQ(run("generate wave a.mdd --vertices 50", {.error_file = "/dev/full"}).exit_code, 1);
+    EXPECT_TRUE(exists("a.mdd"));
+}
+
 TEST_F(Files, AMissingFolderIsSaidBeforeTheWork)
 {
     const Outcome outcome = run("generate wave no/where/a.pc2 --vertices 1000000 --frames 1000");

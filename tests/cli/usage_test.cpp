@@ -76,3 +76,14 @@ TEST_F(Usage, QuietSaysNothingButErrors)
     EXPECT_EQ(good("generate wave a.mdd --vertices 50 --frames 2 -q").err, "");
     EXPECT_NE(run("generate wave a.mdd -q").err, "");
 }
+
+TEST_F(Usage, VerboseSaysMore)
+{
+    const std::string usual = good("generate wave a.mdd --vertices 50 --frames 2").err;
+    EXPECT_GT(good("generate wave b.mdd --vertices 50 --frames 2 -v").err.size(), usual.size());
+}
+
+TEST_F(Usage, NoProgressBarIsDrawnWhereStandardErrorIsNoTerminal)
+{
+    EXPECT_EQ(good("generate wave a.mdd --vertices 50 --frames 2").err.find('\r'), std::string::npos);
+}

@@ -1,0 +1,71 @@
+/// decode: rebuilds an animation from a .reel file and writes it in any format.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "cli/figures.h"
+#include "cli/numbers.h"
+#include "cli/reel_file.h"
+#include "cli/source.h"
+#include "cli/target.h"
+#include "cli/verb.h"
+
+namespace meshreel::cli {
+
+namespace {
+
+class Decode : public Verb {
+public:
+    void declare(CLI::App& app) override
+    {
+        app.add_option("INPUT", source_.path, "a .reel file, or -")->required();
+        app.add_option("OUTPUT", target_.path, "a file, a sequence such as back.####.obj, or -")->required();
+        declare_format(app, "--format", target_.format, "the output's format, where its name does not say it");
+        app.add_option("--base", source_.base, "the base mesh that the file was made with")->type_name("FILE");
+        add_parsed(app, {"--frames", "frames to take, from 0, the last included"}, source_.frames, parse_frames)
+            ->type_name("A:B:STEP");
+        source_.declare_limits(app);
+        target_.declare(app);
+        app.footer("Examples:\n"
+                   "  meshreel decode walk.reel walk.####.obj\n"
+                   "  meshreel decode out.reel back.pc2 --mesh-out mesh.obj\n"
+                   "  meshreel decode out.reel back.mdd --base mesh.obj\n"
+                   "  meshreel decode walk.reel walk.glb --morphs pca\n");
+    }
+
+    Result<Report> run(Console& console) override
+    {
+        const Stopwatch watch;
+        source_.format = "reel";
+        MESHREEL_TRY(const Go go, prepare(target_, {source_.path, source_.base}, console));
+        Json figures{{"schema", "meshreel.decode/1"}, {"input", source_.path}, {"output", target_.path}};
+        figures["skipped"] = go == Go::skip;
+        if (go == Go::skip) return Report{figures, fmt::format("{}: exists, skipped\n", target_.path)};
+        const Stopwatch decoding;
+        MESHREEL_TRY(const Animation animation, load(source_, console));
+        const double decode_seconds = decoding.seconds();
+        const unsigned long long decode_memory = peak_memory_bytes();
+        MESHREEL_CHECK(save(animation, target_, console));
+        add_counts(figures, animation);
+        figures["raw_bytes"] = raw_bytes(animation);
+        figures["decode_seconds"] = decode_seconds;
+        figures["decode_peak_memory_bytes"] = decode_memory;
+        figures["seconds"] = watch.seconds();
+        figures["peak_memory_bytes"] = peak_memory_bytes();
+        return Report{figures, fmt::format("{} -> {}: {}\n  {:.2f} s, at most {} of memory\n", source_.path,
+                                           target_.path, counts_text(animation), watch.seconds(),
+                                           human_bytes(static_cast<double>(peak_memory_bytes())))};
+    }
+
+private:
+    Source source_;
+    Target target_;
+};
+
+} // namespace
+
+std::unique_ptr<Verb> make_decode()
+{
+    return std::make_unique<Decode>();
+}
+
+} // namespace meshreel::cli

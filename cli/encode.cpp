@@ -1,0 +1,184 @@
+/// encode: compresses an animation into a .reel file.
+// SPDX-License-Identifier: MIT
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/figures.h"
+#include "cli/numbers.h"
+#include "cli/reel_file.h"
+#include "cli/source.h"
+#include "cli/target.h"
+#include "cli/verb.h"
+#include "meshreel/meshreel.h"
+
+namespace meshreel::cli {
+
+namespace {
+
+constexpr const char* quality_group = "Quality (default: --max-error 0.05%)";
+constexpr const char* coding_group = "Coding";
+
+/// What encode's options ask for, as texts; the table of the codec's own words.
+struct Choices {
+    std::string order = "keep", basis = "cobra", entropy = "range", codec = "coddyac";
+
+    Order order_value(bool has_base) const
+    {
+        return has_base ? Order::base : order == "free" ? Order::free : Order::keep;
+    }
+    BasisCoding basis_value() const
+    {
+        return basis == "raw" ? BasisCoding::raw : basis == "uniform" ? BasisCoding::uniform : BasisCoding::cobra;
+    }
+    Entropy entropy_value() const { return entropy == "huffman" ? Entropy::huffman : Entropy::range; }
+};
+
+class Encode : public Verb {
+public:
+    void declare(CLI::App& app) override
+    {
+        app.add_option("INPUT", source_.path, "a file, a sequence such as walk.####.obj, or -")->required();
+        app.add_option("OUTPUT", target_.path, "a .reel file, or -")->required();
+        declare_format(app, "--format", source_.format, "the input's format, where its name does not say it");
+        source_.declare(app);
+        app.get_option("--base")->description("send no connectivity and no order: the reader has this mesh too");
+        declare_quality(app);
+        declare_coding(app);
+        target_.declare_overwriting(app);
+        app.footer(
+            "A quality is met, and verified by decoding, before the file appears; exit 7 where none meets it.\n\n"
+            "Examples:\n"
+            "  meshreel encode walk.glb walk.reel\n"
+            "  meshreel encode motion.pc2 --mesh mesh.obj out.reel --max-error 0.1%\n"
+            "  meshreel encode motion.pc2 --mesh mesh.obj --base mesh.obj out.reel --kg 0.1\n"
+            "  meshreel encode walk.####.obj --fps 30 --frames 0:99 walk.reel --bases 40 --step 0.0001\n");
+    }
+
+    Result<Report> run(Console& console) override
+    {
+        const Stopwatch watch;
+        target_.format = "reel";
+        MESHREEL_TRY(const Go go, prepare(target_, {source_.path, source_.mesh, source_.base}, console));
+        Json figures{{"schema", "meshreel.encode/1"}, {"input", source_.path}, {"output", target_.path}};
+        figures["skipped"] = go == Go::skip;
+        if (go == Go::skip) return Report{figures, fmt::format("{}: exists, skipped\n", target_.path)};
+        MESHREEL_TRY(const Animation base, load_base(source_, console));
+        MESHREEL_TRY(const Animation animation, load(source_, console));
+        const Stopwatch encoding;
+        MESHREEL_TRY(const Encoded encoded, in_file(encode(animation, options(base, console)), source_.path));
+        const double encode_seconds = encoding.seconds();
+        MESHREEL_CHECK(save_bytes(encoded.bytes, target_));
+        add_figures(figures, animation, encoded);
+        figures["encode_seconds"] = encode_seconds;
+        figures["seconds"] = watch.seconds();
+        figures["peak_memory_bytes"] = peak_memory_bytes();
+        return Report{figures, summary(figures)};
+    }
+
+private:
+    void declare_quality(CLI::App& app)
+    {
+        auto* const error =
+            add_parsed(app, {"--max-error", "no vertex is ever farther off: percent of the body diagonal, or units"},
+                       max_error_, parse_amount);
+        error->type_name("X%|X")->group(quality_group);
+        auto* const kg = app.add_option("--kg", kg_, "KG error of at most this many percent");
+        kg->check(positive())->type_name("X")->group(quality_group)->excludes(error);
+        auto* const bases = app.add_option("--bases", bases_, "eigentrajectories, by hand");
+        bases->check(positive())->type_name("K")->group(quality_group);
+        auto* const step = app.add_option("--step", step_, "coefficient step, by hand: fraction of the body diagonal");
+        step->check(positive())->type_name("X")->group(quality_group);
+        for (CLI::Option* by_hand : {bases, step}) by_hand->excludes(error)->excludes(kg);
+    }
+
+    void declare_coding(CLI::App& app)
+    {
+        const auto choice = [&](const char* name, std::string& value, std::vector<std::string> words,
+                                const char* help) {
+            app.add_option(name, value, help)
+                ->check(one_of(words))
+                ->capture_default_str()
+                ->type_name(fmt::format("{}", fmt::join(words, "|")))
+                ->group(coding_group);
+        };
+        choice("--order", choices_.order, {"keep", "free"},
+               "vertex and triangle order: kept, or dropped for a smaller file");
+        choice("--basis", choices_.basis, {"raw", "uniform", "cobra"}, "how the basis is coded");
+        choice("--entropy", choices_.entropy, {"huffman", "range"}, "how residuals become bits");
+        app.add_option("--codec", choices_.codec, "the codec")
+            ->capture_default_str()
+            ->type_name("NAME")
+            ->group(coding_group);
+    }
+
+    EncodeOptions options(const Animation& base, Console& console) const
+    {
+        EncodeOptions all;
+        all.codec = choices_.codec;
+        all.quality.kg = kg_;
+        if (max_error_.value > 0.0)
+            (max_error_.percent ? all.quality.max_error_relative : all.quality.max_error) = max_error_.value;
+        all.quality.bases = bases_;
+        all.quality.step = step_;
+        all.order = choices_.order_value(!source_.base.empty());
+        all.base = source_.base.empty() ? nullptr : &base;
+        all.basis = choices_.basis_value();
+        all.entropy = choices_.entropy_value();
+        all.threads = source_.threads;
+        all.progress = console.progress();
+        return all;
+    }
+
+    void add_figures(Json& figures, const Animation& animation, const Encoded& encoded) const
+    {
+        const double diagonal = body_diagonal(animation);
+        add_counts(figures, animation);
+        figures["codec"] = choices_.codec;
+        figures["order"] = source_.base.empty() ? choices_.order : "base";
+        figures["basis"] = choices_.basis;
+        figures["entropy"] = choices_.entropy;
+        figures["raw_bytes"] = raw_bytes(animation);
+        figures["reel_bytes"] = encoded.bytes.size();
+        figures["bpfv"] = number(encoded.bpfv);
+        figures["kg"] = number(encoded.kg);
+        figures["max_error"] = number(encoded.max_error);
+        figures["max_error_relative"] = number(diagonal > 0.0 ? 100.0 * encoded.max_error / diagonal : 0.0);
+        figures["bases"] = encoded.bases;
+        figures["step"] = number(encoded.step);
+    }
+
+    std::string summary(const Json& figures) const
+    {
+        const auto value = [&](const char* name) {
+            return figures[name].is_null() ? 0.0 : figures[name].get<double>();
+        };
+        std::string text = fmt::format("{} -> {}: {} vertices, {} triangles, {} frames\n", source_.path, target_.path,
+                                       human_count(figures["vertices"]), human_count(figures["triangles"]),
+                                       human_count(figures["frames"]));
+        text += fmt::format("  {} -> {}, {:.4g} bits a frame and vertex\n", human_bytes(value("raw_bytes")),
+                            human_bytes(value("reel_bytes")), value("bpfv"));
+        text += fmt::format("  KG error {:.4g} %, largest error {:.4g} units = {:.4g} % of the diagonal\n", value("kg"),
+                            value("max_error"), value("max_error_relative"));
+        return text + fmt::format("  {} bases, step {:.4g}; {:.2f} s, at most {} of memory\n", value("bases"),
+                                  value("step"), value("seconds"), human_bytes(value("peak_memory_bytes")));
+    }
+
+    Source source_;
+    Target target_;
+    Amount max_error_;
+    std::optional<double> kg_, step_;
+    std::optional<std::uint32_t> bases_;
+    Choices choices_;
+};
+
+} // namespace
+
+std::unique_ptr<Verb> make_encode()
+{
+    return std::make_unique<Encode>();
+}
+
+} // namespace meshreel::cli
