@@ -130,6 +130,19 @@ TEST(Ply, PolygonsBecomeFansThatShareTheirFacesValues)
     EXPECT_TRUE(listener.has("positions are rounded"));
 }
 
+TEST(Ply, NamesThatWouldMeetAreKeptApart)
+{
+    Animation made = tetrahedron(1);
+    made.appearance.attributes.push_back(float_attribute("x", Domain::vertex, 1, std::span(made.positions).first(4)));
+    made.appearance.attributes.push_back(float_attribute("a b", Domain::vertex, 1, std::span(made.positions).first(4)));
+    made.appearance.attributes.push_back(float_attribute("a_b", Domain::vertex, 1, std::span(made.positions).last(4)));
+    const auto read = parse(*write_ply(made, 0, {}));
+    ASSERT_TRUE(read.ok()) << why(read);
+    EXPECT_TRUE(same_bits(read->positions, made.positions));
+    EXPECT_EQ(read->appearance.find("x_")->values, made.appearance.find("x")->values);
+    EXPECT_EQ(read->appearance.find("a_b_")->values, made.appearance.find("a_b")->values);
+}
+
 TEST(Ply, TrianglesWithoutAMaterialStayWithoutOne)
 {
     Animation made = tetrahedron(1);

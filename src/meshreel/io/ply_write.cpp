@@ -1,6 +1,7 @@
 /// Writing PLY: a header from the attributes, then rows.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <set>
 
 #include "meshreel/base/text.h"
 #include "meshreel/io/attributes.h"
@@ -37,6 +38,14 @@ std::vector<std::string> property_names(const Attribute& attribute)
         stem, [](char c) { return c <= ' ' || c == 127 || c == '#'; }, '_');
     for (std::size_t c = 0; c < n; ++c) names.push_back(n == 1 ? stem : concat(stem, "_", c));
     return names;
+}
+
+/// Two properties of one name would not be read back.
+void make_unique(std::vector<Columns>& all, std::set<std::string> taken)
+{
+    for (Columns& columns : all)
+        for (std::string& name : columns.names)
+            while (!taken.insert(name).second) name += '_';
 }
 
 std::string_view type_name(Scalar type)
@@ -102,6 +111,8 @@ void PlyWriter::choose()
             seamed_.push_back(&attribute);
         }
     }
+    make_unique(of_vertices_, {"x", "y", "z"});
+    make_unique(of_faces_, {"vertex_indices", "vertex_index", "texcoord"});
     for (const auto* table : {&of_vertices_, &of_faces_})
         for (const Columns& columns : *table)
             if (!has_none(*columns.attribute) && std::ranges::find(columns.value, no_value) != columns.value.end())
