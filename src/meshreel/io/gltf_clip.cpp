@@ -62,8 +62,12 @@ std::size_t target_count(const GltfDocument& document, std::uint32_t mesh)
 }
 
 /// Fixes how many numbers a key has, and that the output has them all.
-Status fit_output(GltfSampler& sampler, std::size_t width, const Json& channel)
+Status fit_output(GltfSampler& sampler, std::size_t width, AnimatedPath path, const Json& channel)
 {
+    const std::size_t components = path == AnimatedPath::weights ? 1 : width;
+    if (sampler.output.components != components)
+        return channel.wrong(concat("its sampler has ", static_cast<unsigned>(sampler.output.components),
+                                    " components a value, but ", components, " are needed"));
     if (sampler.used && sampler.width != width)
         return channel.wrong("shares its sampler with a channel of another width");
     const std::size_t parts = sampler.interpolation == Interpolation::cubic ? 3 : 1;
@@ -98,7 +102,7 @@ Status read_channel(const GltfDocument& document, const GltfScene& scene, const 
         tell(warn, concat(json.path, ": animates the weights of a node without morph targets, which is left out"));
         return Ok{};
     }
-    MESHREEL_CHECK(fit_output(clip.samplers[sampler], width, json));
+    MESHREEL_CHECK(fit_output(clip.samplers[sampler], width, *path, json));
     clip.channels.push_back({static_cast<std::uint32_t>(node), *path, static_cast<std::uint32_t>(sampler)});
     return Ok{};
 }

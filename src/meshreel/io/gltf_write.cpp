@@ -148,22 +148,31 @@ void add_meshes(GltfBuilder& builder, const Animation& animation, const Motion& 
     }
 }
 
-/// One weight track for all nodes.
+/// One track for all nodes: the weights, or, where there are none, a rest that keeps the times and the clip's name.
 void add_clip(GltfBuilder& builder, const Animation& animation, const Motion& motion)
 {
-    const std::vector<float> times(animation.times_s.begin(), animation.times_s.end());
+    const bool moves = motion.weights.cols > 0;
+    const std::vector<float> times(animation.times_s.begin(), animation.times_s.end()), rest(times.size() * 3);
     builder.open_view(0);
     const std::size_t input = builder.add_floats(times, "SCALAR", true);
     builder.close_view();
     builder.open_view(0);
-    const std::size_t output = builder.add_floats(motion.weights.values, "SCALAR", false);
+    const std::size_t output =
+        moves ? builder.add_floats(motion.weights.values, "SCALAR", false) : builder.add_floats(rest, "VEC3", false);
     builder.close_view();
     json clip = {{"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}},
                  {"channels", json::array()}};
     if (!animation.meta.name.empty()) clip["name"] = animation.meta.name;
     for (std::size_t n = 0; n < builder.root["nodes"].size(); ++n)
-        clip["channels"].push_back({{"sampler", 0}, {"target", {{"node", n}, {"path", "weights"}}}});
+        clip["channels"].push_back(
+            {{"sampler", 0}, {"target", {{"node", n}, {"path", moves ? "weights" : "translation"}}}});
     builder.add("animations", std::move(clip));
+}
+
+/// A single frame at time 0 without a name is a plain mesh.
+bool has_clip(const Animation& animation)
+{
+    return animation.frame_count() > 1 || animation.times_s[0] > 0 || !animation.meta.name.empty();
 }
 
 /// Times become float32; they must stay apart, and none may be negative.
@@ -171,7 +180,7 @@ Status check_times(const Animation& animation)
 {
     for (std::size_t f = 0; f < animation.frame_count(); ++f) {
         const double time = animation.times_s[f];
-        if (time < 0 && animation.frame_count() > 1)
+        if (time < 0)
             return unsupported(concat("frame ", f, " is at ", time, " s; glTF has no negative times"), "times");
         if (f > 0 && !(static_cast<float>(time) > static_cast<float>(animation.times_s[f - 1])))
             return unsupported(concat("frames ", f - 1, " and ", f, " are at the same time in glTF's 32-bit floats"),
@@ -186,8 +195,6 @@ void tell_losses(const Animation& animation, const SaveOptions& options)
         tell(options, "glTF takes y as up; the positions are written as they are");
     if (animation.meta.metres_per_unit != 0 && animation.meta.metres_per_unit != 1)
         tell(options, "glTF counts in metres; the positions are written as they are");
-    if (animation.frame_count() == 1 && animation.times_s[0] != 0)
-        tell(options, "a single frame loses its time in glTF");
     for (const Attribute& attribute : animation.appearance.attributes)
         if (!attribute_semantic(attribute.name) && attribute.name != "material" && attribute.name != "group")
             tell(options, concat("the file cannot hold the attribute ", attribute.name));
@@ -252,7 +259,7 @@ Status save_gltf(const Animation& animation, const std::string& path, const Save
     add_materials(builder, animation, options);
     const Motion motion = options.morphs == Morphs::pca ? pca_motion(animation, options) : frame_motion(animation);
     add_meshes(builder, animation, motion, options);
-    if (motion.weights.cols > 0) add_clip(builder, animation, motion);
+    if (has_clip(animation)) add_clip(builder, animation, motion);
     const bool separate = ends_with_gltf(path);
     const std::string binary_path = separate ? path.substr(0, path.size() - 5) + ".bin" : std::string();
     builder.root["buffers"] = {{{"byteLength", builder.binary.size()}}};
