@@ -102,6 +102,7 @@ Status read_channel(const GltfDocument& document, const GltfScene& scene, const 
         tell(warn, concat(json.path, ": animates the weights of a node without morph targets, which is left out"));
         return Ok{};
     }
+    MESHREEL_CHECK(document.budget->take(width * sizeof(double), json)); // of the pose
     MESHREEL_CHECK(fit_output(clip.samplers[sampler], width, *path, json));
     clip.channels.push_back({static_cast<std::uint32_t>(node), *path, static_cast<std::uint32_t>(sampler)});
     return Ok{};
