@@ -165,8 +165,8 @@ TEST(GltfWrite, AVertexWithTwoValuesAtItsCornersIsSplit)
     Animation made = sheet(2, 2);
     std::vector<float> uvs;
     for (int corner = 0; corner < 6; ++corner) uvs.insert(uvs.end(), {float(corner), 0});
-    made.appearance.attributes = {
-        float_attribute("uv0", Domain::corner, 2, uvs, {0, 1, 2, 3, 4, 2})}; // vertex 2 shares, vertex 1 does not
+    made.appearance.attributes = {indexed(float_attribute("uv0", Domain::corner, 2, uvs),
+                                          {0, 1, 2, 3, 4, 2})}; // vertex 2 shares, vertex 1 does not
     const Animation back = through(made, "sheet.glb");
     EXPECT_EQ(back.vertex_count, 5u);
     const Attribute* uv = back.appearance.find("uv0");

@@ -44,14 +44,20 @@ Result<std::uint8_t> component_count(const Json& field)
     return field.wrong("is no accessor type");
 }
 
-/// count elements of `size` bytes, `stride` apart, from `offset` on, all inside the view.
-Result<const std::uint8_t*> elements(ByteView view, const Json& offset_field, std::uint64_t count, std::size_t size,
-                                     std::size_t stride)
+/// Elements of `size` bytes, `stride` apart.
+struct Run {
+    std::uint64_t count;
+    std::size_t size, stride;
+};
+
+/// Where a run begins that lies inside the view from an offset on.
+Result<const std::uint8_t*> elements(ByteView view, const Json& offset_field, const Run& run)
 {
     MESHREEL_TRY(const std::uint64_t offset, offset_field.integer_or(0, view.size() + 1));
     const std::uint64_t room = view.size() - offset;
-    if (count > 0 && (room < size || (count - 1) > (room - size) / stride))
-        return offset_field.wrong(concat(count, " elements reach beyond the buffer view's ", view.size(), " bytes"));
+    if (run.count > 0 && (room < run.size || (run.count - 1) > (room - run.size) / run.stride))
+        return offset_field.wrong(
+            concat(run.count, " elements reach beyond the buffer view's ", view.size(), " bytes"));
     return view.data() + offset;
 }
 
@@ -67,7 +73,7 @@ Status read_dense(const GltfDocument& document, Accessor& found)
         return document.item("bufferViews", number).member("byteStride").wrong("is smaller than an element");
     found.stride = stride;
     MESHREEL_TRY(found.data,
-                 elements(view, found.where.member("byteOffset"), found.count, found.element_size(), stride));
+                 elements(view, found.where.member("byteOffset"), {found.count, found.element_size(), stride}));
     return Ok{};
 }
 
@@ -84,11 +90,11 @@ Status read_sparse(const GltfDocument& document, Accessor& found)
     MESHREEL_TRY(const std::uint64_t index_view, indices.member("bufferView").integer(document.count("bufferViews")));
     MESHREEL_TRY(const ByteView index_bytes, buffer_view(document, index_view));
     MESHREEL_TRY(found.sparse_indices,
-                 elements(index_bytes, indices.member("byteOffset"), found.sparse_count, size, size));
+                 elements(index_bytes, indices.member("byteOffset"), {found.sparse_count, size, size}));
     MESHREEL_TRY(const std::uint64_t value_view, values.member("bufferView").integer(document.count("bufferViews")));
     MESHREEL_TRY(const ByteView value_bytes, buffer_view(document, value_view));
     MESHREEL_TRY(found.sparse_values,
-                 elements(value_bytes, values.member("byteOffset"), found.sparse_count, value_size, value_size));
+                 elements(value_bytes, values.member("byteOffset"), {found.sparse_count, value_size, value_size}));
     return Ok{};
 }
 

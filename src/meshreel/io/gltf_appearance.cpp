@@ -14,8 +14,6 @@ namespace meshreel::io {
 
 namespace {
 
-using Warn = std::function<void(std::string)>;
-
 /// An attribute as it grows, and the vertices that have it.
 struct Column {
     Attribute attribute;
@@ -44,8 +42,7 @@ Column& column_for(Columns& columns, const std::string& name, const Accessor& va
     return columns.back();
 }
 
-Status gather(const GltfDocument& document, const GltfVertices& vertices, std::uint32_t first, Columns& columns,
-              const Warn& warn)
+Status gather(const GltfSource& source, const GltfVertices& vertices, std::uint32_t first, Columns& columns)
 {
     const Json attributes = vertices.primitive.member("attributes");
     for (const auto& item : attributes.value->items()) {
@@ -54,10 +51,11 @@ Status gather(const GltfDocument& document, const GltfVertices& vertices, std::u
         if (!name) {
             const bool baked = semantic == "POSITION" || semantic.compare(0, 7, "JOINTS_") == 0 ||
                                semantic.compare(0, 8, "WEIGHTS_") == 0;
-            if (!baked && warn) warn(concat(attributes.path, ".", semantic, ": is no attribute of glTF and left out"));
+            if (!baked && source.warn)
+                source.warn(concat(attributes.path, ".", semantic, ": is no attribute of glTF and left out"));
             continue;
         }
-        MESHREEL_TRY(const Accessor found, accessor(document, attributes.member(semantic.c_str())));
+        MESHREEL_TRY(const Accessor found, accessor(source.document, attributes.member(semantic.c_str())));
         if (found.count != vertices.count)
             return attributes.member(semantic.c_str())
                 .wrong(concat(found.count, " values for ", vertices.count, " vertices"));
@@ -84,67 +82,72 @@ Status finish(const GltfDocument& document, Column&& column, Animation& animatio
     return Ok{};
 }
 
-struct TriangleNumbers {
-    std::vector<std::uint32_t> materials, groups;
-    std::map<std::string, std::size_t> nodes; ///< how often each node name came up
+/// Adds the triangles of node after node.
+struct Gatherer {
+    const GltfSource& source;
+    Animation& animation;
+    std::vector<std::uint32_t> materials, groups; ///< one a triangle
+    std::map<std::string, std::size_t> nodes;     ///< how often each node name came up
+
+    /// The triangles of the node whose vertex sets begin at body.parts[p], in the order of its mesh's primitives.
+    Status add(std::size_t p, bool mirrored);
 };
 
-/// The triangles of one node, in the order of its mesh's primitives.
-Status add_triangles(const GltfDocument& document, const GltfNode& node, std::span<const GltfPart> parts,
-                     const GltfMesh& mesh, bool mirrored, Animation& animation, TriangleNumbers& numbers)
+Status Gatherer::add(std::size_t p, bool mirrored)
 {
-    const std::size_t instance = ++numbers.nodes[node.name];
+    const GltfPart* const parts = &source.body.parts[p];
+    const GltfNode& node = source.scene.nodes[parts->node];
+    const GltfMesh& mesh = source.body.meshes[parts->mesh];
+    const std::size_t instance = ++nodes[node.name];
     for (const GltfTriangles& primitive : mesh.primitives) {
         const std::uint64_t total = animation.triangles.size() + primitive.triangles.size();
-        MESHREEL_CHECK(within(total, document.limits.max_triangles, "triangle_count"));
-        MESHREEL_CHECK(document.budget->take(primitive.triangles.size() * 28, document.json().member("nodes")));
+        MESHREEL_CHECK(within(total, source.document.limits.max_triangles, "triangle_count"));
+        MESHREEL_CHECK(
+            source.document.budget->take(primitive.triangles.size() * 28, source.document.json().member("nodes")));
         const std::uint32_t first = parts[primitive.vertices].first;
         for (const Triangle& t : primitive.triangles)
             animation.triangles.push_back({first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]});
-        numbers.materials.resize(total, primitive.material);
-        numbers.groups.resize(total, static_cast<std::uint32_t>(animation.appearance.groups.size()));
+        materials.resize(total, primitive.material);
+        groups.resize(total, static_cast<std::uint32_t>(animation.appearance.groups.size()));
         animation.appearance.groups.push_back(GltfGroup{node.name, instance, mesh.name, primitive.primitive}.name());
     }
     return Ok{};
 }
 
-Status read_triangles(const GltfDocument& document, const GltfScene& scene, const GltfBody& body, Animation& animation,
-                      const Warn& warn)
+Status read_triangles(const GltfSource& source, Animation& animation)
 {
-    const GltfPose rest = pose_at(scene, nullptr, 0);
-    TriangleNumbers numbers;
-    for (std::size_t p = 0; p < body.parts.size(); ++p) {
-        const GltfPart& part = body.parts[p];
+    const GltfPose rest = pose_at(source.scene, nullptr, 0);
+    Gatherer gatherer{source, animation, {}, {}, {}};
+    for (std::size_t p = 0; p < source.body.parts.size(); ++p) {
+        const GltfPart& part = source.body.parts[p];
         if (part.set != 0) continue;
-        const GltfNode& node = scene.nodes[part.node];
         const bool mirrored = !part.skinned && rest.world[part.node].determinant() < 0;
-        if (mirrored && warn) warn(concat("nodes[", part.node, "]: is mirrored; its triangles are turned round"));
-        MESHREEL_CHECK(add_triangles(document, node, std::span(body.parts).subspan(p), body.meshes[part.mesh], mirrored,
-                                     animation, numbers));
+        if (mirrored && source.warn)
+            source.warn(concat("nodes[", part.node, "]: is mirrored; its triangles are turned round"));
+        MESHREEL_CHECK(gatherer.add(p, mirrored));
     }
-    const bool any =
-        std::any_of(numbers.materials.begin(), numbers.materials.end(), [](std::uint32_t m) { return m != gltf_none; });
-    if (any) animation.appearance.attributes.push_back(triangle_numbers("material", numbers.materials));
-    animation.appearance.attributes.push_back(triangle_numbers("group", numbers.groups));
+    const bool any = std::any_of(gatherer.materials.begin(), gatherer.materials.end(),
+                                 [](std::uint32_t m) { return m != gltf_none; });
+    if (any) animation.appearance.attributes.push_back(triangle_numbers("material", gatherer.materials));
+    animation.appearance.attributes.push_back(triangle_numbers("group", gatherer.groups));
     return Ok{};
 }
 
 } // namespace
 
-Status read_gltf_appearance(const GltfDocument& document, const GltfScene& scene, const GltfBody& body,
-                            Animation& animation, const Warn& warn)
+Status read_gltf_appearance(const GltfSource& source, Animation& animation)
 {
     Columns columns;
-    for (const GltfPart& part : body.parts)
-        MESHREEL_CHECK(gather(document, body.meshes[part.mesh].vertices[part.set], part.first, columns, warn));
-    for (Column& column : columns) MESHREEL_CHECK(finish(document, std::move(column), animation));
-    MESHREEL_CHECK(read_triangles(document, scene, body, animation, warn));
-    const Json materials = document.json().member("materials");
+    for (const GltfPart& part : source.body.parts)
+        MESHREEL_CHECK(gather(source, source.body.meshes[part.mesh].vertices[part.set], part.first, columns));
+    for (Column& column : columns) MESHREEL_CHECK(finish(source.document, std::move(column), animation));
+    MESHREEL_CHECK(read_triangles(source, animation));
+    const Json materials = source.document.json().member("materials");
     for (std::size_t m = 0; m < materials.size(); ++m) {
         MESHREEL_TRY(std::string name, materials.element(m).member("name").text_or(concat("material_", m)));
         animation.appearance.materials.push_back(std::move(name));
     }
-    return read_gltf_assets(document, animation.appearance, warn);
+    return read_gltf_assets(source.document, animation.appearance, source.warn);
 }
 
 } // namespace meshreel::io

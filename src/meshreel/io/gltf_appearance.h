@@ -6,11 +6,18 @@
 
 namespace meshreel::io {
 
-/// Fills triangles and appearance of an animation whose vertices are those of `body`. Triangles of mirrored nodes are
+/// What an appearance is gathered from.
+struct GltfSource {
+    const GltfDocument& document;
+    const GltfScene& scene;
+    const GltfBody& body;
+    const std::function<void(std::string)>& warn; ///< may be empty
+};
+
+/// Fills triangles and appearance of an animation whose vertices are those of the body. Triangles of mirrored nodes are
 /// turned round, told to `warn`, so that they face outwards in world space.
 /// @fails bad_input: an attribute that disagrees with POSITION in its count, a broken image.
-Status read_gltf_appearance(const GltfDocument& document, const GltfScene& scene, const GltfBody& body,
-                            Animation& animation, const std::function<void(std::string)>& warn);
+Status read_gltf_appearance(const GltfSource& source, Animation& animation);
 
 /// Materials, textures, samplers and images as assets.
 Status read_gltf_assets(const GltfDocument& document, Appearance& appearance,

@@ -1,6 +1,7 @@
 /// Materials, textures and images of a glTF file as assets that travel along unread.
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "meshreel/base/text.h"
 #include "meshreel/io/gltf_appearance.h"
@@ -43,9 +44,8 @@ Result<Bytes> image_bytes(const GltfDocument& document, const Json& image)
     return bytes;
 }
 
-/// The image becomes an asset and its JSON loses the reference; where it cannot be read it keeps its URI instead.
-Status take_image(const GltfDocument& document, std::size_t number, nlohmann::json& images, Appearance& appearance,
-                  const Warn& warn)
+/// The image as an asset; nothing where it cannot be had, which is told: it keeps its reference.
+Result<std::optional<Asset>> image_asset(const GltfDocument& document, std::size_t number, const Warn& warn)
 {
     const Json image = document.item("images", number);
     if (!image.value->is_object()) return image.wrong("is no object");
@@ -53,13 +53,10 @@ Status take_image(const GltfDocument& document, std::size_t number, nlohmann::js
     if (!bytes.ok()) {
         if (bytes.error().code == ErrorCode::bad_input) return std::move(bytes).error();
         if (warn) warn(concat(bytes.error().sentence(), "; the image keeps its reference"));
-        return Ok{};
+        return std::optional<Asset>();
     }
     MESHREEL_TRY(std::string type, image.member("mimeType").text_or(image_type(*bytes)));
-    images[number].erase("bufferView");
-    images[number].erase("uri");
-    appearance.assets.push_back({gltf_image_name(number), std::move(type), *std::move(bytes)});
-    return Ok{};
+    return std::optional<Asset>(Asset{gltf_image_name(number), std::move(type), *std::move(bytes)});
 }
 
 } // namespace
@@ -76,8 +73,13 @@ Status read_gltf_assets(const GltfDocument& document, Appearance& appearance, co
     MESHREEL_CHECK(document.budget->take(document.file.size(), document.json().member("materials")));
     for (const char* list : {"extensionsUsed", "extensionsRequired"})
         if (document.count(list) > 0) carried[list] = *document.json().member(list).value;
-    for (std::size_t i = 0; i < document.count("images"); ++i)
-        MESHREEL_CHECK(take_image(document, i, carried["images"], appearance, warn));
+    for (std::size_t i = 0; i < document.count("images"); ++i) {
+        MESHREEL_TRY(std::optional<Asset> image, image_asset(document, i, warn));
+        if (!image) continue;
+        carried["images"][i].erase("bufferView");
+        carried["images"][i].erase("uri");
+        appearance.assets.push_back(*std::move(image));
+    }
     const std::string text = carried.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     appearance.assets.insert(appearance.assets.begin(),
                              {gltf_materials_name, gltf_materials_type, Bytes(text.begin(), text.end())});

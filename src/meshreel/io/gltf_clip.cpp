@@ -80,9 +80,16 @@ Status fit_output(GltfSampler& sampler, std::size_t width, AnimatedPath path, co
     return Ok{};
 }
 
-Status read_channel(const GltfDocument& document, const GltfScene& scene, const Json& json, GltfClip& clip,
-                    const Warn& warn)
+/// What channels are read from.
+struct Source {
+    const GltfDocument& document;
+    const GltfScene& scene;
+    const Warn& warn;
+};
+
+Status read_channel(const Source& source, const Json& json, GltfClip& clip)
 {
+    const auto& [document, scene, warn] = source;
     const Json target = json.member("target");
     MESHREEL_TRY(const std::string name, target.member("path").text_or(""));
     const std::optional<AnimatedPath> path = path_of(name);
@@ -213,7 +220,7 @@ Result<GltfClip> read_gltf_clip(const GltfDocument& document, const GltfScene& s
         clip.samplers.push_back(std::move(sampler));
     }
     for (std::size_t c = 0; c < channels.size(); ++c)
-        MESHREEL_CHECK(read_channel(document, scene, channels.element(c), clip, warn));
+        MESHREEL_CHECK(read_channel({document, scene, warn}, channels.element(c), clip));
     return clip;
 }
 

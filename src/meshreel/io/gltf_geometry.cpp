@@ -84,7 +84,7 @@ Status read_influences(const GltfDocument& document, GltfVertices& vertices, std
 Status unit_sums(GltfVertices& vertices)
 {
     for (std::size_t v = 0; v < vertices.count; ++v) {
-        const std::span<double> weights(&vertices.weights[v * vertices.influences], vertices.influences);
+        const std::span<double> weights(vertices.weights.data() + v * vertices.influences, vertices.influences);
         double sum = 0;
         for (double weight : weights) {
             if (weight < 0)

@@ -81,7 +81,7 @@ Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
     animation.meta.up = Axis::y;
     animation.meta.metres_per_unit = 1;
     animation.meta.fps = times.fps / static_cast<double>(chosen.step);
-    MESHREEL_CHECK(read_gltf_appearance(document, scene, body, animation, options.warn));
+    MESHREEL_CHECK(read_gltf_appearance({document, scene, body, options.warn}, animation));
     MESHREEL_CHECK(
         within(document.limits, animation.vertex_count, animation.triangles.size(), animation.frame_count()));
     MESHREEL_CHECK(document.budget->take(animation.frame_count() * animation.vertex_count * 12,

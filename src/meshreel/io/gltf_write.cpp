@@ -78,22 +78,22 @@ std::vector<float> target_values(const Animation& animation, const Motion& motio
     return values;
 }
 
-/// POSITION of the set and of its targets.
-json add_positions(GltfBuilder& builder, const Animation& animation, const Motion& motion, const GltfVertexSet& set,
-                   json& attributes)
+/// What the primitives of a set have in common: "attributes" with POSITION, and "targets".
+json add_positions(GltfBuilder& builder, const Animation& animation, const Motion& motion, const GltfVertexSet& set)
 {
     std::vector<float> base(set.sources.size() * 3);
     for (std::size_t i = 0; i < base.size(); ++i) base[i] = motion.base[set.sources[i / 3] * 3ul + i % 3];
+    json shared = json::object();
     builder.open_view(12);
-    attributes["POSITION"] = builder.add_floats(base, "VEC3", true);
+    shared["attributes"]["POSITION"] = builder.add_floats(base, "VEC3", true);
     builder.close_view();
-    json targets = json::array();
-    if (motion.weights.cols == 0) return targets;
+    if (motion.weights.cols == 0) return shared;
     builder.open_view(12);
     for (std::size_t k = 0; k < motion.weights.cols; ++k)
-        targets.push_back({{"POSITION", builder.add_floats(target_values(animation, motion, k, set), "VEC3", true)}});
+        shared["targets"].push_back(
+            {{"POSITION", builder.add_floats(target_values(animation, motion, k, set), "VEC3", true)}});
     builder.close_view();
-    return targets;
+    return shared;
 }
 
 std::size_t add_indices(GltfBuilder& builder, const GltfPrimitive& primitive, std::size_t vertex_count)
@@ -127,18 +127,19 @@ json mesh_json(const GltfNodeOut& node, const std::vector<json>& primitives, con
 void add_meshes(GltfBuilder& builder, const Animation& animation, const Motion& motion, const SaveOptions& options)
 {
     const GltfLayout layout = gltf_layout(animation);
-    std::vector<json> attributes(layout.sets.size()), targets(layout.sets.size()), primitives;
-    for (std::size_t s = 0; s < layout.sets.size(); ++s) {
-        report(options.progress, "writing meshes", static_cast<double>(s) / static_cast<double>(layout.sets.size()));
-        attributes[s] = add_attributes(builder, animation, layout.sets[s], options);
-        targets[s] = add_positions(builder, animation, motion, layout.sets[s], attributes[s]);
+    std::vector<json> shared, primitives;
+    for (const GltfVertexSet& set : layout.sets) {
+        report(options.progress, "writing meshes",
+               static_cast<double>(shared.size()) / static_cast<double>(layout.sets.size()));
+        const json attributes = add_attributes(builder, animation, set, options);
+        shared.push_back(add_positions(builder, animation, motion, set));
+        shared.back()["attributes"].update(attributes);
     }
     const std::size_t materials = builder.root.contains("materials") ? builder.root["materials"].size() : 0;
     for (const GltfPrimitive& primitive : layout.primitives) {
-        json item = {{"attributes", attributes[primitive.set]},
-                     {"indices", add_indices(builder, primitive, layout.sets[primitive.set].sources.size())}};
+        json item = shared[primitive.set];
+        item["indices"] = add_indices(builder, primitive, layout.sets[primitive.set].sources.size());
         if (primitive.material < materials) item["material"] = primitive.material;
-        if (!targets[primitive.set].empty()) item["targets"] = targets[primitive.set];
         primitives.push_back(std::move(item));
     }
     for (const GltfNodeOut& node : layout.nodes) {

@@ -105,16 +105,24 @@ bool make_unit(std::vector<float>& values, std::size_t components)
     return changed;
 }
 
-std::size_t add_converted(GltfBuilder& builder, const Attribute& attribute, std::span<const std::uint32_t> places,
-                          std::size_t components, bool unit, const SaveOptions& options)
+/// An attribute on its way into a vertex set.
+struct Column {
+    const Attribute& attribute;
+    std::string semantic;
+    std::vector<std::uint32_t> places; ///< of each vertex's value
+};
+
+std::size_t add_converted(GltfBuilder& builder, const Column& column, std::size_t components,
+                          const SaveOptions& options)
 {
     std::vector<float> values;
-    for (std::uint32_t place : places)
+    for (std::uint32_t place : column.places)
         for (std::size_t c = 0; c < components; ++c)
-            values.push_back(place == no_value ? 0.0f : attribute_float(attribute, place, c));
+            values.push_back(place == no_value ? 0.0f : attribute_float(column.attribute, place, c));
+    const bool unit = column.semantic == "NORMAL" || column.semantic == "TANGENT";
     if (unit && make_unit(values, components))
-        tell(options,
-             concat("some values of the attribute ", attribute.name, " were not of length 1 and are scaled to it"));
+        tell(options, concat("some values of the attribute ", column.attribute.name,
+                             " were not of length 1 and are scaled to it"));
     builder.open_view(components * 4);
     const std::size_t accessor = builder.add_floats(values, type_name(components), false);
     builder.close_view();
@@ -122,17 +130,14 @@ std::size_t add_converted(GltfBuilder& builder, const Attribute& attribute, std:
 }
 
 /// The accessor of one attribute, or nothing where glTF cannot hold it.
-std::optional<std::size_t> add_attribute(GltfBuilder& builder, const Attribute& attribute, const std::string& semantic,
-                                         std::span<const std::uint32_t> places, const SaveOptions& options)
+std::optional<std::size_t> add_attribute(GltfBuilder& builder, const Column& column, const SaveOptions& options)
 {
-    const bool unit = semantic == "NORMAL" || semantic == "TANGENT";
-    if (allowed(semantic, attribute) && !unit) return add_raw(builder, attribute, places);
-    const std::size_t components = as_floats(semantic, attribute);
-    if (components == 0) {
-        tell(options, concat("the file cannot hold the attribute ", attribute.name, " in its type"));
-        return std::nullopt;
-    }
-    return add_converted(builder, attribute, places, components, unit, options);
+    const bool unit = column.semantic == "NORMAL" || column.semantic == "TANGENT";
+    if (allowed(column.semantic, column.attribute) && !unit) return add_raw(builder, column.attribute, column.places);
+    const std::size_t components = as_floats(column.semantic, column.attribute);
+    if (components > 0) return add_converted(builder, column, components, options);
+    tell(options, concat("the file cannot hold the attribute ", column.attribute.name, " in its type"));
+    return std::nullopt;
 }
 
 /// Numbered attributes must begin at 0 without gaps. @source glTF 2.0, 3.7.2.1
@@ -164,7 +169,8 @@ nlohmann::json add_attributes(GltfBuilder& builder, const Animation& animation, 
     for (const Attribute& attribute : animation.appearance.attributes) {
         const std::optional<std::string> semantic = attribute_semantic(attribute.name);
         if (!semantic || attribute.domain == Domain::triangle || attributes.contains(*semantic)) continue;
-        const std::vector<std::uint32_t> places = value_places(animation, attribute, set);
+        const Column column{attribute, *semantic, value_places(animation, attribute, set)};
+        const std::vector<std::uint32_t>& places = column.places;
         std::size_t missing = 0, present = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             present += places[i] != no_value;
@@ -172,7 +178,7 @@ nlohmann::json add_attributes(GltfBuilder& builder, const Animation& animation, 
         }
         if (present == 0) continue;
         if (missing > 0) tell(options, concat(missing, " vertices have no ", attribute.name, "; they get zeros"));
-        const std::optional<std::size_t> accessor = add_attribute(builder, attribute, *semantic, places, options);
+        const std::optional<std::size_t> accessor = add_attribute(builder, column, options);
         if (accessor) attributes[*semantic] = *accessor;
     }
     drop_gaps(attributes, options);
