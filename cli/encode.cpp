@@ -75,7 +75,7 @@ public:
         figures["encode_seconds"] = encode_seconds;
         figures["seconds"] = watch.seconds();
         figures["peak_memory_bytes"] = peak_memory_bytes();
-        return Report{figures, summary(figures)};
+        return Report{figures, summary(figures, animation)};
     }
 
 private:
@@ -150,14 +150,12 @@ private:
         figures["step"] = number(encoded.step);
     }
 
-    std::string summary(const Json& figures) const
+    std::string summary(const Json& figures, const Animation& animation) const
     {
         const auto value = [&](const char* name) {
             return figures[name].is_null() ? 0.0 : figures[name].get<double>();
         };
-        std::string text = fmt::format("{} -> {}: {} vertices, {} triangles, {} frames\n", source_.path, target_.path,
-                                       human_count(figures["vertices"]), human_count(figures["triangles"]),
-                                       human_count(figures["frames"]));
+        std::string text = fmt::format("{} -> {}: {}\n", source_.path, target_.path, counts_text(animation));
         text += fmt::format("  {} -> {}, {:.4g} bits a frame and vertex\n", human_bytes(value("raw_bytes")),
                             human_bytes(value("reel_bytes")), value("bpfv"));
         text += fmt::format("  KG error {:.4g} %, largest error {:.4g} units = {:.4g} % of the diagonal\n", value("kg"),

@@ -30,6 +30,14 @@ void spill(const fs::path& path, const std::string& bytes)
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
+void limit(decltype(RLIMIT_AS) what, rlim_t most)
+{
+    const struct rlimit both {
+        most, most
+    };
+    if (most != 0 && ::setrlimit(what, &both) != 0) ::_exit(126);
+}
+
 /// Between fork and exec: folder, streams and limits.
 [[noreturn]] void become_the_command(const fs::path& folder, const fs::path& streams, std::vector<char*> texts,
                                      const Start& start)
@@ -42,10 +50,8 @@ void spill(const fs::path& path, const std::string& bytes)
            STDOUT_FILENO);
     stream(start.error_file.empty() ? streams / "err" : fs::path(start.error_file), O_WRONLY | O_CREAT, STDERR_FILENO);
     if (::chdir(folder.c_str()) != 0) ::_exit(126);
-    const struct rlimit limit {
-        start.largest_file, start.largest_file
-    };
-    if (start.largest_file != 0 && ::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
+    limit(RLIMIT_FSIZE, start.largest_file);
+    limit(RLIMIT_AS, start.largest_memory);
     ::execv(texts.front(), texts.data());
     ::_exit(127);
 }

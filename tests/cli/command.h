@@ -22,11 +22,12 @@ struct Outcome {
 
 /// How the child is started.
 struct Start {
-    std::string input = {};              ///< bytes on standard input
-    std::string output_file = {};        ///< standard output goes there instead of into Outcome::out
-    std::string error_file = {};         ///< standard error goes there instead of into Outcome::err
-    unsigned long long largest_file = 0; ///< bytes that a file may have; 0: any
-    unsigned interrupt_after_ms = 0;     ///< SIGINT then; 0: never
+    std::string input = {};                ///< bytes on standard input
+    std::string output_file = {};          ///< standard output goes there instead of into Outcome::out
+    std::string error_file = {};           ///< standard error goes there instead of into Outcome::err
+    unsigned long long largest_file = 0;   ///< bytes that a file may have; 0: any
+    unsigned long long largest_memory = 0; ///< bytes of address space; 0: any
+    unsigned interrupt_after_ms = 0;       ///< SIGINT then; 0: never
 };
 
 /// Runs `meshreel ARGUMENTS` in a folder.

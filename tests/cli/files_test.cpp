@@ -85,6 +85,23 @@ TEST_F(Files, AMissingFolderIsSaidBeforeTheWork)
     EXPECT_THAT(outcome.err, HasSubstr("there is no folder no/where"));
 }
 
+TEST_F(Files, AFolderThatTakesNoFilesIsAnError)
+{
+    const Outcome outcome = run("generate wave /proc/a.pc2 --vertices 50");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("/proc/a.pc2: cannot write"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need the address space themselves
+TEST_F(Files, TooLittleMemoryIsASentence)
+{
+    const Outcome outcome = run("generate wave a.pc2 --vertices 300000 --frames 2000", {.largest_memory = 1u << 30});
+    EXPECT_EQ(outcome.exit_code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("not enough memory"));
+    EXPECT_TRUE(files().empty());
+}
+#endif
+
 TEST_F(Files, AMeshThatCannotBeWrittenTakesTheCacheWithIt)
 {
     EXPECT_EQ(run("generate wave a.pc2 --vertices 50 --mesh no/a.obj").exit_code, 2);

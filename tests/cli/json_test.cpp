@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "meshreel/metrics/metric.h"
 #include "tests/cli/command.h"
 
 using meshreel::cli_test::CommandTest;
@@ -67,6 +68,15 @@ TEST_F(JsonKeys, OfConvertAreDocumented)
 TEST_F(JsonKeys, OfCompareAreDocumented)
 {
     EXPECT_EQ(keys_of(good("compare a.pc2 a.pc2 --mesh a.obj --json").json()), documented("compare"));
+}
+
+TEST_F(JsonKeys, OfTheMetricsAreTheNamesOfTheRegistry)
+{
+    Keys names;
+    for (const meshreel::metrics::Metric& metric : meshreel::metrics::all()) names.emplace(metric.name);
+    const auto json = good("compare a.pc2 a.pc2 --mesh a.obj --json").json();
+    EXPECT_EQ(keys_of(json["metrics"]), names);
+    EXPECT_EQ(keys_of(json["units"]), names);
 }
 
 TEST_F(JsonKeys, OfValidateAreDocumented)
