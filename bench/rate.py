@@ -35,7 +35,7 @@ def arguments():
 
 
 def run(command, *options, allowed=(0,)):
-    done = subprocess.run([command, *map(str, options), "--json"], stdout=subprocess.PIPE, text=True)
+    done = subprocess.run([command, *map(str, options), "--json", "-q"], stdout=subprocess.PIPE, text=True)
     if done.returncode not in allowed:
         sys.exit(f"{' '.join(map(str, options))}: exit code {done.returncode}")
     return json.loads(done.stdout)

@@ -7,14 +7,16 @@ import os
 import subprocess
 import sys
 
+FPS = 25
+
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./demo", description="The whole road: generate, encode, decode, compare.")
     parser.add_argument("shape", nargs="?", default="cloth", help="what build/meshreel generate can make (default: cloth)")
     parser.add_argument("--vertices", type=int, default=5000)
-    parser.add_argument("--frames", type=int, default=120)
+    parser.add_argument("--frames", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--max-error", default="0.05%", help="largest error of any vertex (default: 0.05%% of the diagonal)")
+    parser.add_argument("--max-error", default="0.2%", help="largest error of any vertex (default: 0.2%% of the diagonal)")
     parser.add_argument("--out", default="demo-out", help="the folder to leave everything in (default: demo-out)")
     parser.add_argument("--command", default="build/meshreel", help=argparse.SUPPRESS)
     return parser.parse_args()
@@ -27,7 +29,7 @@ class Meshreel:
         self.command = os.path.abspath(command)
 
     def __call__(self, *verb_and_options):
-        run = subprocess.run([self.command, *map(str, verb_and_options), "--json"], stdout=subprocess.PIPE, text=True)
+        run = subprocess.run([self.command, *map(str, verb_and_options), "--json", "-q"], stdout=subprocess.PIPE, text=True)
         if run.returncode != 0:
             sys.exit(run.returncode)
         return json.loads(run.stdout)
@@ -57,20 +59,20 @@ def main():
                                            (".obj", ".pc2", ".reel", ".decoded.pc2", ".svg"))
     print(f"making {options.shape} ...", file=sys.stderr)
     made = meshreel("generate", options.shape, original, "--mesh", mesh, "--vertices", options.vertices,
-                    "--frames", options.frames, "--seed", options.seed, "-y")
+                    "--frames", options.frames, "--fps", FPS, "--seed", options.seed, "-y")
     print("encoding ...", file=sys.stderr)
-    encoded = meshreel("encode", original, "--mesh", mesh, reel, "--max-error", options.max_error, "-y")
+    encoded = meshreel("encode", original, "--mesh", mesh, "--fps", FPS, reel, "--max-error", options.max_error, "-y")
     decoded = meshreel("decode", reel, back, "-y")
     print("measuring ...", file=sys.stderr)
-    compared = meshreel("compare", original, back, "--mesh", mesh)
-    meshreel("picture", original, reel, picture, "--mesh", mesh, "--title",
+    compared = meshreel("compare", original, back, "--mesh", mesh, "--fps", FPS)
+    meshreel("picture", original, reel, picture, "--mesh", mesh, "--fps", FPS, "--title",
              f"{options.shape}, {made['vertices']} vertices, {made['frames']} frames", "-y")
     metrics = compared["metrics"]
     values = made["frames"] * made["vertices"]
     table([("vertices V", str(made["vertices"])),
            ("triangles T", str(made["triangles"])),
            ("frames F", str(made["frames"])),
-           ("original (float32 positions)", size(12 * values)),
+           ("original (float32 positions, triangles)", size(made["raw_bytes"])),
            ("encoded (the whole .reel file)", size(os.path.getsize(reel))),
            ("bits per frame and vertex", f"{8 * os.path.getsize(reel) / values:.3f}"),
            ("KG error", f"{metrics['kg']:.4f} %"),
