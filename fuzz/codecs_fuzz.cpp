@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const codecs::Codec& codec : codecs::all()) {
         Matrix<float> frames(frame_count, 3ul * trace.surface.vertex_count);
         const Status status = codec.decode({{data, size}, 0, "SEGM"}, trace.surface, frames.view(),
-                                           {.max_memory = 64u << 20}, Threads{1});
+                                           {{.max_memory = 64u << 20}, Threads{1}});
         if (!status.ok() && status.error().message.empty()) __builtin_trap();
     }
     return 0;

@@ -53,20 +53,21 @@ Result<const codecs::Codec*> codec_of(const Header& header)
     return codec;
 }
 
-/// Decodes all segments into frames [F x 3W].
-Status read_frames(const StreamReader& file, const Header& header, const connectivity::Surface& surface,
-                   MatrixView<float> frames, const DecodeOptions& options)
+/// Decodes all segments: frames [F x 3W].
+Result<Matrix<float>> read_frames(const StreamReader& file, const Header& header, const connectivity::Surface& surface,
+                                  const DecodeOptions& options)
 {
     MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
     MESHREEL_TRY(const std::vector<container::Segment> segments, container::read_segments(file, header));
+    Matrix<float> frames(header.frame_count, 3ul * header.coded_vertex_count);
     for (const container::Segment& segment : segments) {
         report(options.progress, "decode", static_cast<double>(segment.first_frame) / header.frame_count);
-        const MatrixView<float> part{frames.data + segment.first_frame * frames.cols, segment.frame_count, frames.cols};
+        const MatrixView<float> part{frames.row(segment.first_frame).data(), segment.frame_count, frames.cols};
         const auto offset = static_cast<std::uint64_t>(segment.payload.data() - file.file().data());
         MESHREEL_CHECK(
-            codec->decode({segment.payload, offset, "SEGM"}, surface, part, options.limits, options.threads));
+            codec->decode({segment.payload, offset, "SEGM"}, surface, part, {options.limits, options.threads}));
     }
-    return Ok{};
+    return frames;
 }
 
 /// Gives each of the V vertices the trajectory of its surface vertex.
@@ -107,13 +108,13 @@ Result<Animation> decode(ByteView reel, const DecodeOptions& options)
     MESHREEL_CHECK(within(options.limits, header.vertex_count + std::uint64_t{header.coded_vertex_count},
                           header.triangle_count, header.frame_count));
     MESHREEL_TRY(connectivity::Topology topology, read_topology(file, header, options.base));
-    Matrix<float> frames(header.frame_count, 3ul * header.coded_vertex_count);
-    MESHREEL_CHECK(read_frames(file, header, topology.surface, frames.view(), options));
+    MESHREEL_TRY(const Matrix<float> frames, read_frames(file, header, topology.surface, options));
     Animation animation;
     animation.vertex_count = header.vertex_count;
     animation.positions = spread(frames, topology.surface_of);
     animation.triangles = std::move(topology.triangles);
-    container::Budget budget(options.limits.max_memory);
+    container::Budget budget(options.limits.max_memory -
+                             std::min(options.limits.max_memory, animation.positions.size() * 4));
     MESHREEL_TRY(animation.times_s, container::read_times(file, header, budget));
     MESHREEL_TRY(animation.meta, container::read_metadata(file));
     MESHREEL_TRY(animation.appearance,
@@ -152,6 +153,8 @@ Result<std::string> explain(ByteView reel, const DecodeLimits& limits)
     MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, limits));
     return container::explain(
         file, [&](const Header& header, container::Tag type, container::Source payload, std::string& lines) -> Status {
+            if (type == container::type::conn)
+                return container::explain_fields<connectivity::PayloadFields>(payload, limits, lines);
             if (type != container::type::segm) return Ok{};
             MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
             return codec->explain(payload, limits, lines);

@@ -235,14 +235,14 @@ Status at(Status status, const container::Source& source, ByteView part, const c
 }
 
 Status decode(const container::Source& source, const connectivity::Surface& surface, MatrixView<float> frames,
-              const DecodeLimits& limits, Threads threads)
+              const Means& means)
 {
-    MESHREEL_TRY(const Payload payload, container::read_fields<Payload>(source, limits));
+    MESHREEL_TRY(const Payload payload, container::read_fields<Payload>(source, means.limits));
     const std::uint64_t K = payload.bases, n = 3 * frames.rows, W = surface.vertex_count;
     if (K > n)
         return bad_input("more components than a trajectory has coordinates", source.name + ".bases",
                          at_byte(source.offset));
-    if (K != 0 && (n + 2 * W) > limits.max_memory / 8 / K)
+    if (K != 0 && (n + 2 * W) > means.limits.max_memory / 8 / K)
         return bad_input("the basis and its coefficients do not fit in the memory limit", source.name + ".bases",
                          at_byte(source.offset));
     Basis basis{std::vector<double>(n), Matrix<double>(K, n)};
@@ -252,7 +252,7 @@ Status decode(const container::Source& source, const connectivity::Surface& surf
     const auto walk = [&](auto& coder) { ResidualWalk(coder, grid, {payload.step}).code(surface.gates, C.view()); };
     MESHREEL_CHECK(at(taken(payload.entropy, payload.residual_bits, residual_contexts(payload.entropy, K), walk),
                       source, payload.residual_bits, "residual_bits"));
-    rebuild(basis, C.view(), frames, threads);
+    rebuild(basis, C.view(), frames, means.threads);
     return Ok{};
 }
 

@@ -49,6 +49,12 @@ public:
     virtual Trial encode(const Settings& settings) const = 0;
 };
 
+/// What a decoder may use.
+struct Means {
+    DecodeLimits limits;
+    Threads threads;
+};
+
 /// One row of the registry.
 struct Codec {
     std::string_view name; ///< as in --codec, and in the file's header
@@ -60,7 +66,7 @@ struct Codec {
     /// Fills frames [F x 3W] from a payload. Memory: the frames, and what the payload's header promises, within limits.
     /// @fails bad_input, naming byte and field.
     Status (*decode)(const container::Source& payload, const connectivity::Surface& surface, MatrixView<float> frames,
-                     const DecodeLimits& limits, Threads threads);
+                     const Means& means);
 
     /// Appends a line a field of the payload. @fails as decode.
     Status (*explain)(const container::Source& payload, const DecodeLimits& limits, std::string& lines);

@@ -43,6 +43,21 @@ struct Encoded {
 /// @cost O(V + T log T).
 Encoded encode(const Input& input, Order order);
 
+/// The fields of the bytes, for those who explain a file; an Io is one of container/fields.h. decode() reads the same.
+struct PayloadFields {
+    std::uint32_t kind = 0;
+    std::uint64_t vertex_count = 0, triangle_count = 0;
+    ByteView bits;
+
+    void fields(auto& io)
+    {
+        io.varint("kind", kind, {0, 15}, "order + 4 x method: 0 given, 1 shell, 2 sequence, 3 reordered");
+        io.varint("vertex_count", vertex_count, {0, 0xfffffff0}, "V");
+        io.varint("triangle_count", triangle_count, {0, 0xffffffff}, "T");
+        io.rest("bits", bits, "one range-coded stream, see docs/connectivity.md");
+    }
+};
+
 /// Decodes what encode() made with Order::keep or Order::free. @fails bad_input by byte and field: cut, malformed, or
 /// above the limits.
 Result<Topology> decode(ByteView bytes, const DecodeLimits& limits);
