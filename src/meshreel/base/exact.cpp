@@ -27,8 +27,8 @@ double cos_core(double x)
 {
     const double s = x * x;
     double sum = 1.0 / 20922789888000.0;
-    for (double c : {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0,
-                     1.0 / 24.0, -0.5})
+    for (double c :
+         {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5})
         sum = sum * s + c;
     return 1.0 + s * sum;
 }
@@ -51,10 +51,19 @@ long long floor(double x)
     return static_cast<double>(whole) > x ? whole - 1 : whole;
 }
 
-long long round(double x) { return x < 0 ? -floor(-x + 0.5) : floor(x + 0.5); }
+long long round(double x)
+{
+    return x < 0 ? -floor(-x + 0.5) : floor(x + 0.5);
+}
 
-double sin(double x) { return turned(x, 0); }
-double cos(double x) { return turned(x, 1); }
+double sin(double x)
+{
+    return turned(x, 0);
+}
+double cos(double x)
+{
+    return turned(x, 1);
+}
 
 double power(double base, double exponent)
 {

@@ -11,10 +11,10 @@ namespace meshreel {
 
 /// Upper bounds on what a reader or decoder accepts.
 struct DecodeLimits {
-    std::uint64_t max_vertices = 100'000'000;    ///< V
-    std::uint64_t max_triangles = 200'000'000;   ///< T
-    std::uint64_t max_frames = 1'000'000;        ///< F
-    std::uint64_t max_memory = 16ull << 30;      ///< bytes that one file may make us hold
+    std::uint64_t max_vertices = 100'000'000;  ///< V
+    std::uint64_t max_triangles = 200'000'000; ///< T
+    std::uint64_t max_frames = 1'000'000;      ///< F
+    std::uint64_t max_memory = 16ull << 30;    ///< bytes that one file may make us hold
 };
 
 /// Refuses a count that is above its limit, naming the field.

@@ -29,9 +29,9 @@ struct Place {
 /// One failure, told once.
 struct Error {
     ErrorCode code = ErrorCode::runtime;
-    std::string message;        ///< a sentence without the place: "17 vertices, but frame 0 has 12"
-    std::string field = {};     ///< the field or element concerned: "vertex_count", "f"; may be empty
-    std::string file = {};      ///< the file's name, as the user gave it; may be empty
+    std::string message;    ///< a sentence without the place: "17 vertices, but frame 0 has 12"
+    std::string field = {}; ///< the field or element concerned: "vertex_count", "f"; may be empty
+    std::string file = {};  ///< the file's name, as the user gave it; may be empty
     std::optional<Place> place = {};
 
     /// "walk.obj: line 12: f: index 9 is beyond the 8 vertices".
@@ -85,8 +85,14 @@ inline Error unsupported(std::string message, std::string field = {})
 {
     return {ErrorCode::unsupported, std::move(message), std::move(field), {}, {}};
 }
-inline Place at_byte(std::uint64_t offset) { return {Place::Unit::byte, offset}; }
-inline Place at_line(std::uint64_t line) { return {Place::Unit::line, line}; }
+inline Place at_byte(std::uint64_t offset)
+{
+    return {Place::Unit::byte, offset};
+}
+inline Place at_line(std::uint64_t line)
+{
+    return {Place::Unit::line, line};
+}
 
 } // namespace meshreel
 

@@ -8,10 +8,12 @@
 
 namespace meshreel {
 
-inline std::string piece(std::string_view text) { return std::string(text); }
+inline std::string piece(std::string_view text)
+{
+    return std::string(text);
+}
 template <class Number>
-    requires std::is_arithmetic_v<Number>
-std::string piece(Number number)
+requires std::is_arithmetic_v<Number> std::string piece(Number number)
 {
     return std::to_string(number);
 }
