@@ -55,6 +55,7 @@ public:
         target_.format = "svg";
         Source decoded_source = original_;
         decoded_source.path = decoded_path_;
+        if (decoded_source.is_reel()) decoded_source.fps = 0.0; // --fps speaks of the original then
         MESHREEL_TRY(const Go go, prepare(target_, {original_.path, decoded_path_}, console));
         Json figures{{"schema", "meshreel.picture/1"}, {"output", target_.path}, {"skipped", go == Go::skip}};
         if (go == Go::skip) return Report{figures, fmt::format("{}: exists, skipped\n", target_.path)};

@@ -207,6 +207,14 @@ TEST_F(Reel, SomethingElseIsNotAReel)
     EXPECT_TRUE(outcome.json()["error"].contains("byte"));
 }
 
+TEST_F(Reel, TheSpeedOfTheOriginalIsNoMatterOfTheReelItIsComparedWith)
+{
+    good("encode motion.pc2 --mesh mesh.obj --fps 50 a.reel");
+    good("compare motion.pc2 a.reel --mesh mesh.obj --fps 50");
+    good("picture motion.pc2 a.reel a.svg --mesh mesh.obj --fps 50");
+    EXPECT_EQ(run("compare a.reel motion.pc2 --mesh mesh.obj --fps 50").exit_code, 1);
+}
+
 TEST_F(Reel, QualitiesContradictEachOther)
 {
     for (const char* words : {"--kg 1 --max-error 1%", "--bases 3 --kg 1", "--step 0.1 --max-error 1%"})
