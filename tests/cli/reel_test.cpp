@@ -166,8 +166,10 @@ TEST_F(Reel, ExplainStartsAtByteZeroAndNamesTheChunks)
 {
     make_reel();
     const std::string text = good("explain a.reel").out;
-    for (const auto& chunk : good("info a.reel --json").json()["chunks"])
-        EXPECT_THAT(text, HasSubstr(chunk["type"].get<std::string>()));
+    const auto chunks = good("info a.reel --json").json()["chunks"];
+    EXPECT_GE(chunks.size(), 4u);
+    EXPECT_THAT(text, testing::ContainsRegex("\n +0 +8 "));
+    for (const auto& chunk : chunks) EXPECT_THAT(text, HasSubstr(chunk["type"].get<std::string>()));
 }
 
 TEST_F(Reel, ATruncatedFileIsRefusedAndLeavesNothing)
