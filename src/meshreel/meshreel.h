@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "meshreel/base/file.h"
 #include "meshreel/base/limits.h"
 #include "meshreel/base/order.h"
 #include "meshreel/base/parallel.h"
