@@ -103,7 +103,6 @@ public:
         distorted_source.path = distorted_path_;
         complete(original_);
         complete(distorted_source);
-        if (distorted_source.is_reel()) distorted_source.fps = 0.0; // --fps speaks of the original then
         MESHREEL_TRY(Animation original, load(original_, console));
         MESHREEL_TRY(Animation distorted, load(distorted_source, console));
         const bool free = is_free(original, distorted, distorted_source);

@@ -209,12 +209,12 @@ TEST_F(Reel, SomethingElseIsNotAReel)
     EXPECT_TRUE(outcome.json()["error"].contains("byte"));
 }
 
-TEST_F(Reel, TheSpeedOfTheOriginalIsNoMatterOfTheReelItIsComparedWith)
+TEST_F(Reel, TheSpeedGivenIsThatOfTheFileThatHasNone)
 {
     good("encode motion.pc2 --mesh mesh.obj --fps 50 a.reel");
     good("compare motion.pc2 a.reel --mesh mesh.obj --fps 50");
     good("picture motion.pc2 a.reel a.svg --mesh mesh.obj --fps 50");
-    EXPECT_EQ(run("compare a.reel motion.pc2 --mesh mesh.obj --fps 50").exit_code, 1);
+    good("compare a.reel motion.pc2 --mesh mesh.obj --fps 50");
 }
 
 TEST_F(Reel, QualitiesContradictEachOther)
