@@ -57,6 +57,18 @@ TEST_P(EveryCodec, IsMoreAccurateWithAFinerStep)
     }
 }
 
+TEST_P(EveryCodec, KeepsTheMeanWhereTheStepIsTooCoarseForAnyComponent)
+{
+    const Prepared prepared(test_shapes::torus());
+    for (const codecs::Settings& settings : all_settings(1e6)) {
+        const codecs::Trial trial = encoded(prepared, settings);
+        EXPECT_EQ(trial.bases, 0u);
+        const auto frames = decoded(GetParam(), trial.payload, prepared);
+        ASSERT_TRUE(frames.ok()) << frames.error().sentence();
+        EXPECT_FLOAT_EQ(frames->values.front(), frames->values[3]);
+    }
+}
+
 TEST_P(EveryCodec, RefusesEveryTruncation)
 {
     const Prepared prepared(test_shapes::two_components());

@@ -20,16 +20,15 @@ constexpr std::size_t block = 128; // vertices
 /// sums[v] = m + sum_k b[k * stride] * Ct[k][v] for one row of the trajectories of a block.
 struct Row {
     double mean;
-    const double* b;    ///< B[0][row]
-    std::size_t stride; ///< 3F
-    std::size_t K;
+    MatrixView<const double> B; ///< [K x 3F], K may be 0
+    std::size_t row;
 };
 
 MESHREEL_WIDE void add_up(const Row& row, const double* __restrict Ct, double* __restrict sums)
 {
     for (std::size_t v = 0; v < block; ++v) sums[v] = row.mean;
-    for (std::size_t k = 0; k < row.K; ++k) {
-        const double b = row.b[k * row.stride];
+    for (std::size_t k = 0; k < row.B.rows; ++k) {
+        const double b = row.B(k, row.row);
         const double* __restrict c = Ct + k * block;
         for (std::size_t v = 0; v < block; ++v) sums[v] += b * c[v]; // (8.2)
     }
@@ -48,7 +47,7 @@ std::vector<double> transposed(MatrixView<const double> C, std::size_t first, st
 
 void rebuild(const Basis& basis, MatrixView<const double> C, MatrixView<float> frames, Threads threads)
 {
-    const std::size_t W = frames.cols / 3, F = frames.rows, K = basis.rows.rows;
+    const std::size_t W = frames.cols / 3, F = frames.rows;
     parallel_for((W + block - 1) / block, threads, [&](std::size_t task) {
         const std::size_t first = task * block, count = std::min(block, W - first);
         const std::vector<double> Ct = transposed(C, first, count);
@@ -56,7 +55,7 @@ void rebuild(const Basis& basis, MatrixView<const double> C, MatrixView<float> f
         for (std::size_t f = 0; f < F; ++f)
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::size_t row = c * F + f;
-                add_up({basis.mean[row], basis.rows.values.data() + row, 3 * F, K}, Ct.data(), sums);
+                add_up({basis.mean[row], basis.rows.view(), row}, Ct.data(), sums);
                 float* out = frames.row(f).data() + 3 * first + c;
                 for (std::size_t v = 0; v < count; ++v) out[3 * v] = static_cast<float>(sums[v]);
             }
