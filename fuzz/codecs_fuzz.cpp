@@ -13,8 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     constexpr std::size_t frame_count = 5;
     for (const codecs::Codec& codec : codecs::all()) {
         Matrix<float> frames(frame_count, 3ul * trace.surface.vertex_count);
-        const Status status = codec.decode({{data, size}, 0, "SEGM"}, trace.surface, frames.view(),
-                                           {{.max_memory = 64u << 20}, Threads{1}});
+        const Status status = codecs::decode(
+            codec, {{{data, size}, 0, "SEGM"}, trace.surface, frame_count, {.max_memory = 64u << 20}, Threads{1}},
+            frames.view());
         if (!status.ok() && status.error().message.empty()) __builtin_trap();
     }
     return 0;

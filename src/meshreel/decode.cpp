@@ -64,8 +64,9 @@ Result<Matrix<float>> read_frames(const StreamReader& file, const Header& header
         report(options.progress, "decode", static_cast<double>(segment.first_frame) / header.frame_count);
         const MatrixView<float> part{frames.row(segment.first_frame).data(), segment.frame_count, frames.cols};
         const auto offset = static_cast<std::uint64_t>(segment.payload.data() - file.file().data());
-        MESHREEL_CHECK(
-            codec->decode({segment.payload, offset, "SEGM"}, surface, part, {options.limits, options.threads}));
+        MESHREEL_CHECK(codecs::decode(
+            *codec, {{segment.payload, offset, "SEGM"}, surface, segment.frame_count, options.limits, options.threads},
+            part));
     }
     return frames;
 }

@@ -172,8 +172,9 @@ private:
         for (std::size_t s = 0; s < segments_.size(); ++s) {
             const MatrixView<float> part{result.values.data() + segments_[s].first * result.cols, segments_[s].count,
                                          result.cols};
-            MESHREEL_CHECK(
-                codec_.decode({payloads_[s], 0, "SEGM"}, surface(), part, {DecodeLimits{}, options_.threads}));
+            MESHREEL_CHECK(codecs::decode(
+                codec_, {{payloads_[s], 0, "SEGM"}, surface(), segments_[s].count, DecodeLimits{}, options_.threads},
+                part));
         }
         return result;
     }

@@ -42,7 +42,8 @@ inline Result<Matrix<float>> decoded(const codecs::Codec& codec, ByteView payloa
                                      const DecodeLimits& limits = {})
 {
     Matrix<float> frames(prepared.frames.rows, prepared.frames.cols);
-    MESHREEL_CHECK(codec.decode({payload, 0, "SEGM"}, prepared.surface, frames.view(), {limits, Threads{1}}));
+    MESHREEL_CHECK(codecs::decode(codec, {{payload, 0, "SEGM"}, prepared.surface, frames.rows, limits, Threads{1}},
+                                  frames.view()));
     return frames;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshreel/codecs/trajectories.h"
 #include "meshreel/coding/huffman.h"
 #include "meshreel/coding/range_symbols.h"
 #include "meshreel/container/explain.h"
@@ -234,26 +233,26 @@ Status at(Status status, const container::Source& source, ByteView part, const c
     return error;
 }
 
-Status decode(const container::Source& source, const connectivity::Surface& surface, MatrixView<float> frames,
-              const Means& means)
+Result<Trajectories> open(const Coded& coded)
 {
-    MESHREEL_TRY(const Payload payload, container::read_fields<Payload>(source, means.limits));
-    const std::uint64_t K = payload.bases, n = 3 * frames.rows, W = surface.vertex_count;
+    const container::Source& source = coded.payload;
+    MESHREEL_TRY(const Payload payload, container::read_fields<Payload>(source, coded.limits));
+    const std::uint64_t K = payload.bases, n = 3 * std::uint64_t{coded.frame_count}, W = coded.surface.vertex_count;
     if (K > n)
         return bad_input("more components than a trajectory has coordinates", source.name + ".bases",
                          at_byte(source.offset));
-    if (K != 0 && (n + 2 * W) > means.limits.max_memory / 8 / K)
+    if (K != 0 && (n + 2 * W) > coded.limits.max_memory / 8 / K)
         return bad_input("the basis and its coefficients do not fit in the memory limit", source.name + ".bases",
                          at_byte(source.offset));
-    Basis basis{std::vector<double>(n), Matrix<double>(K, n)};
-    MESHREEL_CHECK(at(read_basis(payload, basis), source, payload.basis_bits, "basis_bits"));
-    Matrix<double> C(W, K);
+    Trajectories result{{std::vector<double>(n), Matrix<double>(K, n)}, Matrix<double>(W, K)};
+    MESHREEL_CHECK(at(read_basis(payload, result.basis), source, payload.basis_bits, "basis_bits"));
     const ContextGrid grid = grid_of(payload.entropy);
-    const auto walk = [&](auto& coder) { ResidualWalk(coder, grid, {payload.step}).code(surface.gates, C.view()); };
+    const auto walk = [&](auto& coder) {
+        ResidualWalk(coder, grid, {payload.step}).code(coded.surface.gates, result.C.view());
+    };
     MESHREEL_CHECK(at(taken(payload.entropy, payload.residual_bits, residual_contexts(payload.entropy, K), walk),
                       source, payload.residual_bits, "residual_bits"));
-    rebuild(basis, C.view(), frames, means.threads);
-    return Ok{};
+    return result;
 }
 
 Status explain(const container::Source& source, const DecodeLimits& limits, std::string& lines)
@@ -265,7 +264,7 @@ Status explain(const container::Source& source, const DecodeLimits& limits, std:
 
 Codec coddyac()
 {
-    return {"coddyac", "PCA of trajectories, parallelogram along Edgebreaker, Cobra basis", prepare, decode, explain};
+    return {"coddyac", "PCA of trajectories, parallelogram along Edgebreaker, Cobra basis", prepare, open, explain};
 }
 
 } // namespace meshreel::codecs

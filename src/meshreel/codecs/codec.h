@@ -10,6 +10,7 @@
 #include "meshreel/base/limits.h"
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/settings.h"
+#include "meshreel/codecs/trajectories.h"
 #include "meshreel/connectivity/surface.h"
 #include "meshreel/container/fields.h"
 
@@ -49,8 +50,11 @@ public:
     virtual Trial encode(const Settings& settings) const = 0;
 };
 
-/// What a decoder may use.
-struct Means {
+/// What a decoder is given.
+struct Coded {
+    container::Source payload;
+    const connectivity::Surface& surface;
+    std::size_t frame_count;
     DecodeLimits limits;
     Threads threads;
 };
@@ -63,14 +67,16 @@ struct Codec {
     /// max_bases: no trial will use more components than these.
     std::unique_ptr<Encoder> (*prepare)(const Sequence& sequence, std::size_t max_bases, Threads threads);
 
-    /// Fills frames [F x 3W] from a payload. Memory: the frames, and what the payload's header promises, within limits.
+    /// The trajectories of a payload. Memory: what its header promises, within limits.
     /// @fails bad_input, naming byte and field.
-    Status (*decode)(const container::Source& payload, const connectivity::Surface& surface, MatrixView<float> frames,
-                     const Means& means);
+    Result<Trajectories> (*open)(const Coded& coded);
 
-    /// Appends a line a field of the payload. @fails as decode.
+    /// Appends a line a field of the payload. @fails as open.
     Status (*explain)(const container::Source& payload, const DecodeLimits& limits, std::string& lines);
 };
+
+/// Fills frames [F x 3W] from a payload of F frames. @fails as Codec::open.
+Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames);
 
 /// Every codec, in the order of the documentation.
 std::span<const Codec> all();

@@ -20,4 +20,11 @@ const Codec* find(std::string_view name)
     return nullptr;
 }
 
+Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames)
+{
+    MESHREEL_TRY(const Trajectories trajectories, codec.open(coded));
+    rebuild(trajectories, frames, coded.threads);
+    return Ok{};
+}
+
 } // namespace meshreel::codecs

@@ -45,12 +45,13 @@ std::vector<double> transposed(MatrixView<const double> C, std::size_t first, st
 
 } // namespace
 
-void rebuild(const Basis& basis, MatrixView<const double> C, MatrixView<float> frames, Threads threads)
+void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads threads)
 {
+    const auto& [basis, C] = trajectories;
     const std::size_t W = frames.cols / 3, F = frames.rows;
     parallel_for((W + block - 1) / block, threads, [&](std::size_t task) {
         const std::size_t first = task * block, count = std::min(block, W - first);
-        const std::vector<double> Ct = transposed(C, first, count);
+        const std::vector<double> Ct = transposed(C.view(), first, count);
         double sums[block];
         for (std::size_t f = 0; f < F; ++f)
             for (std::size_t c = 0; c < 3; ++c) {

@@ -8,9 +8,15 @@
 
 namespace meshreel::codecs {
 
+/// Trajectories in the terms of a basis: what a PCA codec decodes to. Any frame can be posed from it (8.2).
+struct Trajectories {
+    Basis basis;
+    Matrix<double> C; ///< coefficients [W x K]
+};
+
 /// t = m + sum_k c_k B_k for every vertex, k rising, in double, rounded once to float32: the same on every machine.
-/// C [W x K]; frames [F x 3W].
+/// frames [F x 3W].
 /// @cost O(W F K).  @source thesis (8.2)
-void rebuild(const Basis& basis, MatrixView<const double> C, MatrixView<float> frames, Threads threads);
+void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads threads);
 
 } // namespace meshreel::codecs
