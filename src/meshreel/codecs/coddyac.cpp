@@ -1,270 +1,58 @@
-/// Coddyac's two directions: PCA, basis, walk; and back.
+/// Coddyac's residuals: the walk along the gates of the surface, in both directions.
 // SPDX-License-Identifier: MIT
 #include "meshreel/codecs/coddyac.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "meshreel/coding/huffman.h"
-#include "meshreel/coding/range_symbols.h"
-#include "meshreel/container/explain.h"
-#include "meshreel/linalg/pca.h"
+#include "meshreel/codecs/entropy.h"
+#include "meshreel/codecs/pca_codec.h"
 
 namespace meshreel::codecs {
 
 namespace {
 
-/// What stands before Coddyac's bits.
-struct Payload {
-    std::uint32_t bases = 0;
-    double step = 1.0;
-    Entropy entropy = Entropy::range;
-    BasisLaw law;
-    ByteView basis_bits, residual_bits;
-
-    void fields(auto& io)
-    {
-        io.varint("bases", bases, {0, 3'000'000}, "K, the number of eigentrajectories");
-        io.f64("step", step, container::positive, "D, quantisation step of the coefficients, model units");
-        io.choice("entropy", entropy, {"huffman", "range"}, "coder of all residuals");
-        io.choice("basis_coding", law.coding, {"raw", "uniform", "cobra"}, "how mean and basis are coded");
-        io.when(law.coding != BasisCoding::raw, "basis_coding is not raw", [&] {
-            io.f64("mean_step", law.mean_step, container::positive, "Q_m (8.29), model units");
-            io.f64("k", law.k, container::not_negative, "scale of the steps, Q_i = k i^q + a (8.26)");
-            io.f64("q", law.q, {0.0, 16.0}, "exponent, used to 2^-16");
-            io.f64("a", law.a, container::finite, "shift (8.28)");
-            io.must(law.k + law.a > 0, "a", "the first step k + a is above 0");
-        });
-        io.blob("basis_bits", basis_bits, container::any, "mean and basis, see codecs/coddyac.md");
-        io.blob("residual_bits", residual_bits, container::any, "residuals of the coefficients, see codecs/coddyac.md");
-    }
-};
-
-/// The same contexts on both sides: columns for an adaptive coder only.
-ContextGrid grid_of(Entropy entropy)
-{
-    return {entropy == Entropy::range ? ContextGrid::most_columns : 1};
-}
-
-coding::Contexts basis_contexts(Entropy entropy)
-{
-    return {grid_of(entropy).size(basis_context_rows), {predict::motion_orders}};
-}
-
-coding::Contexts residual_contexts(Entropy entropy, std::size_t bases)
+coding::Contexts coddyac_contexts(Entropy entropy, std::size_t bases)
 {
     return {grid_of(entropy).size(static_cast<std::uint32_t>(bases)), {}};
 }
 
-/// Calls body(coder) with the writer that the entropy coder names, and returns the bytes written.
-template <class Body>
-Bytes written(Entropy entropy, const coding::Contexts& contexts, const Body& body)
+/// The walk, for whichever coder.
+auto coddyac_walk(const PcaPayload& head, const connectivity::Surface& surface, MatrixView<double> C)
 {
-    const auto all = [&](auto coder) {
-        body(coder);
-        return coder.finish();
+    return [&head, &surface, C](auto& coder) {
+        Matrix<std::int32_t> levels(C.rows + 1, C.cols);
+        ResidualWalk(coder, grid_of(head.entropy), {head.step}, levels.view()).code(surface.gates, C);
     };
-    if (entropy == Entropy::huffman) return all(coding::HuffmanWriter(contexts));
-    return all(coding::RangeWriter(contexts));
 }
 
-/// Calls body(coder) with the reader that the entropy coder names. @fails bad_input: too few bits.
-template <class Body>
-Status taken(Entropy entropy, ByteView bits, const coding::Contexts& contexts, const Body& body)
-{
-    const auto all = [&](auto opened) -> Status {
-        MESHREEL_TRY(auto coder, std::move(opened));
-        body(coder);
-        if (coder.overrun()) return bad_input("ends too early");
-        return Ok{};
-    };
-    if (entropy == Entropy::huffman) return all(coding::HuffmanReader::open(bits, contexts));
-    return all(coding::RangeReader::open(bits, contexts));
-}
-
-Bytes raw_basis(Basis& basis)
-{
-    Bytes bytes;
-    for (std::span<double> values : {std::span<double>(basis.mean), std::span<double>(basis.rows.values)})
-        for (double& value : values) {
-            value = static_cast<float>(value);
-            bytes.resize(bytes.size() + 4);
-            container::store_real(static_cast<float>(value), bytes.data() + bytes.size() - 4);
-        }
-    return bytes;
-}
-
-/// Writes the basis; afterwards it is what the decoder will see.
-Bytes write_basis(const BasisLaw& law, Entropy entropy, Basis& basis)
-{
-    if (law.coding == BasisCoding::raw) return raw_basis(basis);
-    return written(entropy, basis_contexts(entropy),
-                   [&](auto& coder) { code_basis(coder, law, grid_of(entropy), basis); });
-}
-
-Status read_raw_basis(ByteView bytes, Basis& basis)
-{
-    const std::size_t values = basis.mean.size() + basis.rows.values.size();
-    if (bytes.size() != 4 * values) return bad_input("does not hold a float32 for each value");
-    const auto value = [&](std::size_t i) { return container::load_real<float>(bytes.data() + 4 * i); };
-    for (std::size_t i = 0; i < basis.mean.size(); ++i) basis.mean[i] = value(i);
-    for (std::size_t i = 0; i < basis.rows.values.size(); ++i) basis.rows.values[i] = value(basis.mean.size() + i);
-    return Ok{};
-}
-
-Status read_basis(const Payload& payload, Basis& basis)
-{
-    if (payload.law.coding == BasisCoding::raw) return read_raw_basis(payload.basis_bits, basis);
-    return taken(payload.entropy, payload.basis_bits, basis_contexts(payload.entropy),
-                 [&](auto& coder) { code_basis(coder, payload.law, grid_of(payload.entropy), basis); });
-}
-
-class CoddyacEncoder : public Encoder {
+class CoddyacWriter : public ResidualWriter {
 public:
-    CoddyacEncoder(const Sequence& sequence, std::size_t max_bases, Threads threads)
-        : sequence_(sequence), pca_(linalg::pca_of_trajectories(sequence.frames, max_bases, threads))
-    {
-        const Matrix<double> C = linalg::project(sequence.frames, pca_.mean, pca_.basis.view(), threads).C;
-        mean_absolute_ = linalg::mean_absolute(C.view());
-        coefficients_ = Matrix<float>(C.rows, C.cols);
-        std::copy(C.values.begin(), C.values.end(), coefficients_.values.begin());
-    }
+    explicit CoddyacWriter(const connectivity::Surface& surface) : surface_(surface) {}
 
-    double energy() const override { return pca_.energy; }
-
-    Estimate estimate(const Settings& settings) const override
+    Bytes write(const PcaPayload& head, MatrixView<double> C) const override
     {
-        CodedBasis coded = code_basis(settings);
-        const std::size_t K = coded.payload.bases;
-        Matrix<double> wanted(coefficients_.rows, K);
-        for (std::size_t v = 0; v < wanted.rows; ++v) std::copy_n(coefficients_.row(v).data(), K, wanted.row(v).data());
-        Matrix<double> C = wanted;
-        const std::size_t size = coded.bits.size() + write_residuals(coded.payload, C.view()).size();
-        double error = linalg::squared_error_of_basis(pca_, C.rows, coded.basis.mean, coded.basis.rows.view());
-        for (std::size_t i = 0; i < C.values.size(); ++i)
-            error += (wanted.values[i] - C.values[i]) * (wanted.values[i] - C.values[i]);
-        return {size, coded.payload.bases, error};
-    }
-
-    Trial encode(const Settings& settings) const override
-    {
-        CodedBasis coded = code_basis(settings);
-        const MatrixView<const double> basis = coded.basis.rows.view();
-        linalg::Projection projection = linalg::project(sequence_.frames, coded.basis.mean, basis, settings.threads);
-        const Matrix<double> wanted = projection.C;
-        const Bytes residual_bits = write_residuals(coded.payload, projection.C.view());
-        coded.payload.basis_bits = coded.bits;
-        coded.payload.residual_bits = residual_bits;
-        Result<Bytes> bytes = container::write_fields(coded.payload);
-        assert(bytes.ok());
-        return {*std::move(bytes), coded.payload.bases, coded.payload.step,
-                projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), basis)};
+        return written(head.entropy, coddyac_contexts(head.entropy, C.cols), coddyac_walk(head, surface_, C));
     }
 
 private:
-    /// A basis as the decoder will see it, its bits, and the payload's head that says how.
-    struct CodedBasis {
-        Payload payload;
-        Basis basis;
-        Bytes bits;
-    };
-
-    CodedBasis code_basis(const Settings& settings) const
-    {
-        const std::size_t K = bases(settings), n = pca_.mean.size();
-        const double W = sequence_.surface.vertex_count;
-        CodedBasis coded;
-        coded.payload.bases = static_cast<std::uint32_t>(K);
-        coded.payload.step = step(settings);
-        coded.payload.entropy = settings.entropy;
-        coded.payload.law = basis_law(settings.basis, settings.basis_ratio * coded.payload.step / std::sqrt(W),
-                                      std::span(mean_absolute_).first(K));
-        coded.basis = {pca_.mean, Matrix<double>(K, n)};
-        std::copy_n(pca_.basis.values.begin(), K * n, coded.basis.rows.values.begin());
-        coded.bits = write_basis(coded.payload.law, settings.entropy, coded.basis);
-        return coded;
-    }
-
-    std::size_t bases(const Settings& settings) const
-    {
-        if (settings.bases) return std::min<std::size_t>(*settings.bases, pca_.basis.rows);
-        const double least =
-            settings.truncation * settings.step * std::sqrt(static_cast<double>(sequence_.surface.vertex_count));
-        return static_cast<std::size_t>(std::count_if(pca_.singular_values.begin(), pca_.singular_values.end(),
-                                                      [&](double s) { return s >= least; }));
-    }
-
-    /// D; where none is asked for, the one to which the last basis vector just matters.
-    double step(const Settings& settings) const
-    {
-        if (settings.step > 0) return settings.step;
-        const std::size_t K = bases(settings);
-        if (K == 0) return 1.0;
-        const double W = sequence_.surface.vertex_count;
-        return pca_.singular_values[K - 1] / (settings.truncation * std::sqrt(W));
-    }
-
-    Bytes write_residuals(const Payload& payload, MatrixView<double> C) const
-    {
-        const ContextGrid grid = grid_of(payload.entropy);
-        return written(payload.entropy, residual_contexts(payload.entropy, C.cols), [&](auto& coder) {
-            ResidualWalk(coder, grid, {payload.step}).code(sequence_.surface.gates, C);
-        });
-    }
-
-    Sequence sequence_;
-    linalg::Pca pca_;
-    std::vector<double> mean_absolute_; ///< a_i (8.24), [all components]
-    Matrix<float> coefficients_;        ///< C [W x all components] in the exact basis, for estimates
+    const connectivity::Surface& surface_;
 };
 
-std::unique_ptr<Encoder> prepare(const Sequence& sequence, std::size_t max_bases, Threads threads)
+std::unique_ptr<ResidualWriter> study_coddyac(const Sequence& sequence, MatrixView<const float>)
 {
-    return std::make_unique<CoddyacEncoder>(sequence, max_bases, threads);
+    return std::make_unique<CoddyacWriter>(sequence.surface);
 }
 
-/// An error of a part, at the place of that part.
-Status at(Status status, const container::Source& source, ByteView part, const char* field)
+Status read_coddyac(const PcaPayload& head, const Coded& coded, MatrixView<double> C)
 {
-    if (status.ok()) return status;
-    Error error = std::move(status).error();
-    error.field = source.name + "." + field;
-    error.place = at_byte(source.offset + static_cast<std::uint64_t>(part.data() - source.bytes.data()));
-    return error;
-}
-
-Result<Trajectories> open(const Coded& coded)
-{
-    const container::Source& source = coded.payload;
-    MESHREEL_TRY(const Payload payload, container::read_fields<Payload>(source, coded.limits));
-    const std::uint64_t K = payload.bases, n = 3 * std::uint64_t{coded.frame_count}, W = coded.surface.vertex_count;
-    if (K > n)
-        return bad_input("more components than a trajectory has coordinates", source.name + ".bases",
-                         at_byte(source.offset));
-    if (K != 0 && (n + 2 * W) > coded.limits.max_memory / 8 / K)
-        return bad_input("the basis and its coefficients do not fit in the memory limit", source.name + ".bases",
-                         at_byte(source.offset));
-    Trajectories result{{std::vector<double>(n), Matrix<double>(K, n)}, Matrix<double>(W, K)};
-    MESHREEL_CHECK(at(read_basis(payload, result.basis), source, payload.basis_bits, "basis_bits"));
-    const ContextGrid grid = grid_of(payload.entropy);
-    const auto walk = [&](auto& coder) {
-        ResidualWalk(coder, grid, {payload.step}).code(coded.surface.gates, result.C.view());
-    };
-    MESHREEL_CHECK(at(taken(payload.entropy, payload.residual_bits, residual_contexts(payload.entropy, K), walk),
-                      source, payload.residual_bits, "residual_bits"));
-    return result;
-}
-
-Status explain(const container::Source& source, const DecodeLimits& limits, std::string& lines)
-{
-    return container::explain_fields<Payload>(source, limits, lines);
+    return taken(head.entropy, head.residual_bits, coddyac_contexts(head.entropy, C.cols),
+                 coddyac_walk(head, coded.surface, C));
 }
 
 } // namespace
 
 Codec coddyac()
 {
-    return {"coddyac", "PCA of trajectories, parallelogram along Edgebreaker, Cobra basis", prepare, open, explain};
+    return pca_codec<study_coddyac, read_coddyac>("coddyac",
+                                                  "PCA of trajectories, parallelogram along Edgebreaker, Cobra basis");
 }
 
 } // namespace meshreel::codecs

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "meshreel/base/views.h"
-#include "meshreel/codecs/basis.h"
 #include "meshreel/codecs/codec.h"
 #include "meshreel/codecs/contexts.h"
 #include "meshreel/coding/quantiser.h"
@@ -16,19 +15,19 @@ Codec coddyac();
 
 /// Codes the residuals of all vertices in traversal order; afterwards C holds what the decoder will see, bit for bit.
 /// gates: [W], where each vertex was met. C [W x K], model units; writing: originals in, reading: anything in.
+/// levels: [W + 1 x K], all zero; row v: what was coded for vertex v, the last row: of no vertex.
 /// Level contexts: K rows of the grid.
 /// @cost O(W K).  @source thesis 8.1.3, (8.1)
 template <class Coder>
 class ResidualWalk {
 public:
-    ResidualWalk(Coder& coder, ContextGrid grid, coding::Quantiser quantiser)
-        : coder_(coder), grid_(grid), quantiser_(quantiser)
+    ResidualWalk(Coder& coder, ContextGrid grid, coding::Quantiser quantiser, MatrixView<std::int32_t> levels)
+        : coder_(coder), grid_(grid), quantiser_(quantiser), levels_(levels)
     {
     }
 
     void code(std::span<const connectivity::Gate> gates, MatrixView<double> C)
     {
-        levels_ = Matrix<std::int32_t>(C.rows + 1, C.cols); // the last row stays zero: residuals of no vertex
         guess_.assign(C.cols, 0.0);
         for (std::size_t v = 0; v < C.rows; ++v) {
             predict(gates[v], v, C);
@@ -76,7 +75,7 @@ private:
     Coder& coder_;
     ContextGrid grid_;
     coding::Quantiser quantiser_;
-    Matrix<std::int32_t> levels_;
+    MatrixView<std::int32_t> levels_;
     std::vector<double> guess_;
 };
 

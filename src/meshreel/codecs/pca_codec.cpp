@@ -1,0 +1,192 @@
+/// PCA, basis, residuals; and back.
+// SPDX-License-Identifier: MIT
+#include "meshreel/codecs/pca_codec.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "meshreel/codecs/entropy.h"
+#include "meshreel/container/explain.h"
+#include "meshreel/linalg/pca.h"
+
+namespace meshreel::codecs {
+
+namespace {
+
+coding::Contexts basis_contexts(Entropy entropy)
+{
+    return {grid_of(entropy).size(basis_context_rows), {predict::motion_orders}};
+}
+
+Bytes raw_basis(Basis& basis)
+{
+    Bytes bytes;
+    for (std::span<double> values : {std::span<double>(basis.mean), std::span<double>(basis.rows.values)})
+        for (double& value : values) {
+            value = static_cast<float>(value);
+            bytes.resize(bytes.size() + 4);
+            container::store_real(static_cast<float>(value), bytes.data() + bytes.size() - 4);
+        }
+    return bytes;
+}
+
+/// Writes the basis; afterwards it is what the decoder will see.
+Bytes write_basis(const BasisLaw& law, Entropy entropy, Basis& basis)
+{
+    if (law.coding == BasisCoding::raw) return raw_basis(basis);
+    return written(entropy, basis_contexts(entropy),
+                   [&](auto& coder) { code_basis(coder, law, grid_of(entropy), basis); });
+}
+
+Status read_raw_basis(ByteView bytes, Basis& basis)
+{
+    const std::size_t values = basis.mean.size() + basis.rows.values.size();
+    if (bytes.size() != 4 * values) return bad_input("does not hold a float32 for each value");
+    const auto value = [&](std::size_t i) { return container::load_real<float>(bytes.data() + 4 * i); };
+    for (std::size_t i = 0; i < basis.mean.size(); ++i) basis.mean[i] = value(i);
+    for (std::size_t i = 0; i < basis.rows.values.size(); ++i) basis.rows.values[i] = value(basis.mean.size() + i);
+    return Ok{};
+}
+
+Status read_basis(const PcaPayload& payload, Basis& basis)
+{
+    if (payload.law.coding == BasisCoding::raw) return read_raw_basis(payload.basis_bits, basis);
+    return taken(payload.entropy, payload.basis_bits, basis_contexts(payload.entropy),
+                 [&](auto& coder) { code_basis(coder, payload.law, grid_of(payload.entropy), basis); });
+}
+
+class PcaEncoder : public Encoder {
+public:
+    PcaEncoder(const Sequence& sequence, std::size_t max_bases, Threads threads, StudyResiduals study)
+        : sequence_(sequence), pca_(linalg::pca_of_trajectories(sequence.frames, max_bases, threads))
+    {
+        const Matrix<double> C = linalg::project(sequence.frames, pca_.mean, pca_.basis.view(), threads).C;
+        mean_absolute_ = linalg::mean_absolute(C.view());
+        coefficients_ = Matrix<float>(C.rows, C.cols);
+        std::copy(C.values.begin(), C.values.end(), coefficients_.values.begin());
+        residuals_ = study(sequence_, coefficients_.view());
+    }
+
+    double energy() const override { return pca_.energy; }
+
+    Estimate estimate(const Settings& settings) const override
+    {
+        CodedBasis coded = code_basis(settings);
+        const std::size_t K = coded.payload.bases;
+        Matrix<double> wanted(coefficients_.rows, K);
+        for (std::size_t v = 0; v < wanted.rows; ++v) std::copy_n(coefficients_.row(v).data(), K, wanted.row(v).data());
+        Matrix<double> C = wanted;
+        const std::size_t size = coded.bits.size() + residuals_->write(coded.payload, C.view()).size();
+        double error = linalg::squared_error_of_basis(pca_, C.rows, coded.basis.mean, coded.basis.rows.view());
+        for (std::size_t i = 0; i < C.values.size(); ++i)
+            error += (wanted.values[i] - C.values[i]) * (wanted.values[i] - C.values[i]);
+        return {size, coded.payload.bases, error};
+    }
+
+    Trial encode(const Settings& settings) const override
+    {
+        CodedBasis coded = code_basis(settings);
+        const MatrixView<const double> basis = coded.basis.rows.view();
+        linalg::Projection projection = linalg::project(sequence_.frames, coded.basis.mean, basis, settings.threads);
+        const Matrix<double> wanted = projection.C;
+        const Bytes residual_bits = residuals_->write(coded.payload, projection.C.view());
+        coded.payload.basis_bits = coded.bits;
+        coded.payload.residual_bits = residual_bits;
+        Result<Bytes> bytes = container::write_fields(coded.payload);
+        assert(bytes.ok());
+        return {*std::move(bytes), coded.payload.bases, coded.payload.step,
+                projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), basis)};
+    }
+
+private:
+    /// A basis as the decoder will see it, its bits, and the payload's head that says how.
+    struct CodedBasis {
+        PcaPayload payload;
+        Basis basis;
+        Bytes bits;
+    };
+
+    CodedBasis code_basis(const Settings& settings) const
+    {
+        const std::size_t K = bases(settings), n = pca_.mean.size();
+        const double W = sequence_.surface.vertex_count;
+        CodedBasis coded;
+        coded.payload.bases = static_cast<std::uint32_t>(K);
+        coded.payload.step = step(settings);
+        coded.payload.entropy = settings.entropy;
+        coded.payload.law = basis_law(settings.basis, settings.basis_ratio * coded.payload.step / std::sqrt(W),
+                                      std::span(mean_absolute_).first(K));
+        coded.basis = {pca_.mean, Matrix<double>(K, n)};
+        std::copy_n(pca_.basis.values.begin(), K * n, coded.basis.rows.values.begin());
+        coded.bits = write_basis(coded.payload.law, settings.entropy, coded.basis);
+        return coded;
+    }
+
+    std::size_t bases(const Settings& settings) const
+    {
+        if (settings.bases) return std::min<std::size_t>(*settings.bases, pca_.basis.rows);
+        const double least =
+            settings.truncation * settings.step * std::sqrt(static_cast<double>(sequence_.surface.vertex_count));
+        return static_cast<std::size_t>(std::count_if(pca_.singular_values.begin(), pca_.singular_values.end(),
+                                                      [&](double s) { return s >= least; }));
+    }
+
+    /// D; where none is asked for, the one to which the last basis vector just matters.
+    double step(const Settings& settings) const
+    {
+        if (settings.step > 0) return settings.step;
+        const std::size_t K = bases(settings);
+        if (K == 0) return 1.0;
+        const double W = sequence_.surface.vertex_count;
+        return pca_.singular_values[K - 1] / (settings.truncation * std::sqrt(W));
+    }
+
+    Sequence sequence_;
+    linalg::Pca pca_;
+    std::vector<double> mean_absolute_; ///< a_i (8.24), [all components]
+    Matrix<float> coefficients_;        ///< C [W x all components] in the exact basis, for estimates
+    std::unique_ptr<ResidualWriter> residuals_;
+};
+
+/// An error of a part, at the place of that part.
+Status at(Status status, const container::Source& source, ByteView part, const char* field)
+{
+    if (status.ok()) return status;
+    Error error = std::move(status).error();
+    error.field = source.name + "." + field;
+    error.place = at_byte(source.offset + static_cast<std::uint64_t>(part.data() - source.bytes.data()));
+    return error;
+}
+
+} // namespace
+
+std::unique_ptr<Encoder> prepare_pca(const Sequence& sequence, std::size_t max_bases, Threads threads,
+                                     StudyResiduals study)
+{
+    return std::make_unique<PcaEncoder>(sequence, max_bases, threads, study);
+}
+
+Result<Trajectories> open_pca(const Coded& coded, ReadResiduals read)
+{
+    const container::Source& source = coded.payload;
+    MESHREEL_TRY(const PcaPayload payload, container::read_fields<PcaPayload>(source, coded.limits));
+    const std::uint64_t K = payload.bases, n = 3 * std::uint64_t{coded.frame_count}, W = coded.surface.vertex_count;
+    if (K > n)
+        return bad_input("more components than a trajectory has coordinates", source.name + ".bases",
+                         at_byte(source.offset));
+    if (K != 0 && (n + 2 * W) > coded.limits.max_memory / 8 / K)
+        return bad_input("the basis and its coefficients do not fit in the memory limit", source.name + ".bases",
+                         at_byte(source.offset));
+    Trajectories result{{std::vector<double>(n), Matrix<double>(K, n)}, Matrix<double>(W, K)};
+    MESHREEL_CHECK(at(read_basis(payload, result.basis), source, payload.basis_bits, "basis_bits"));
+    MESHREEL_CHECK(at(read(payload, coded, result.C.view()), source, payload.residual_bits, "residual_bits"));
+    return result;
+}
+
+Status explain_pca(const container::Source& source, const DecodeLimits& limits, std::string& lines)
+{
+    return container::explain_fields<PcaPayload>(source, limits, lines);
+}
+
+} // namespace meshreel::codecs
