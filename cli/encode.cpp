@@ -1,5 +1,6 @@
 /// encode: compresses an animation into a .reel file.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -31,7 +32,8 @@ struct Choices {
     }
     BasisCoding basis_value() const
     {
-        return basis == "raw" ? BasisCoding::raw : basis == "uniform" ? BasisCoding::uniform : BasisCoding::cobra;
+        const auto place = std::find(basis_coding_names.begin(), basis_coding_names.end(), basis);
+        return static_cast<BasisCoding>(place - basis_coding_names.begin());
     }
     Entropy entropy_value() const { return entropy == "huffman" ? Entropy::huffman : Entropy::range; }
 };
@@ -106,7 +108,8 @@ private:
         };
         choice("--order", choices_.order, {"keep", "free"},
                "vertex and triangle order: kept, or dropped for a smaller file");
-        choice("--basis", choices_.basis, {"raw", "uniform", "cobra"}, "how the basis is coded");
+        choice("--basis", choices_.basis, {basis_coding_names.begin(), basis_coding_names.end()},
+               "how the basis is coded");
         choice("--entropy", choices_.entropy, {"huffman", "range"}, "how residuals become bits");
         app.add_option("--codec", choices_.codec, "the codec")
             ->capture_default_str()

@@ -32,9 +32,9 @@ struct Prepared {
 inline std::vector<codecs::Settings> all_settings(double step)
 {
     std::vector<codecs::Settings> all;
-    for (BasisCoding basis : {BasisCoding::raw, BasisCoding::uniform, BasisCoding::cobra})
+    for (std::size_t basis = 0; basis < basis_coding_names.size(); ++basis)
         for (Entropy entropy : {Entropy::huffman, Entropy::range})
-            all.push_back({.step = step, .basis = basis, .entropy = entropy});
+            all.push_back({.step = step, .basis = static_cast<BasisCoding>(basis), .entropy = entropy});
     return all;
 }
 

@@ -27,6 +27,14 @@ const Golden goldens[] = {
     {"uniform_range", BasisCoding::uniform, Entropy::range},
     {"cobra_huffman", BasisCoding::cobra, Entropy::huffman},
     {"cobra_range", BasisCoding::cobra, Entropy::range},
+    {"lpc1_huffman", BasisCoding::lpc1, Entropy::huffman},
+    {"lpc1_range", BasisCoding::lpc1, Entropy::range},
+    {"lpc2_huffman", BasisCoding::lpc2, Entropy::huffman},
+    {"lpc2_range", BasisCoding::lpc2, Entropy::range},
+    {"lpc3_huffman", BasisCoding::lpc3, Entropy::huffman},
+    {"lpc3_range", BasisCoding::lpc3, Entropy::range},
+    {"lpc4_huffman", BasisCoding::lpc4, Entropy::huffman},
+    {"lpc4_range", BasisCoding::lpc4, Entropy::range},
 };
 
 /// XXH3-64 of the positions' bits, little-endian, as hexadecimal digits.

@@ -1,8 +1,10 @@
-/// Cobra's steps and its choice of predictor; encoder side.
+/// Cobra's steps, its choice of predictor, and the weights of LPC; encoder side.
 // SPDX-License-Identifier: MIT
 #include "meshreel/codecs/basis.h"
 
 #include <cmath>
+
+#include "meshreel/linalg/least_squares.h"
 
 namespace meshreel::codecs {
 
@@ -62,13 +64,32 @@ int best_motion_order(std::span<const double> t, coding::Quantiser quantiser)
     for (int order = 1; order <= predict::motion_orders; ++order) {
         std::vector<double> copy(t.begin(), t.end());
         CostProbe probe;
-        SeriesWalk<CostProbe>(probe, {}, t.size() / 3).code(copy, quantiser, order, 0);
+        SeriesWalk<CostProbe>(probe, {}, t.size() / 3).code(copy, quantiser, {order, false, {}}, 0);
         if (order == 1 || probe.total_bits < least) {
             best = order;
             least = probe.total_bits;
         }
     }
     return best;
+}
+
+std::array<double, predict::linear_orders + 1> lpc_weights(std::span<const double> t, int order)
+{
+    std::array<double, predict::linear_orders + 1> weights{};
+    const std::size_t F = t.size() / 3, m = static_cast<std::size_t>(order);
+    if (F <= m) return weights;
+    Matrix<double> before(3 * (F - m), m + 1);
+    std::vector<double> wanted;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t f = m; f < F; ++f) {
+            const std::span<double> row = before.row(wanted.size());
+            row[0] = 1.0;
+            for (std::size_t j = 1; j <= m; ++j) row[j] = t[c * F + f - j];
+            wanted.push_back(t[c * F + f]);
+        }
+    const std::vector<double> best = linalg::least_squares(before.view(), wanted); // the set before (3.21)
+    std::copy(best.begin(), best.end(), weights.begin());
+    return weights;
 }
 
 BasisLaw basis_law(BasisCoding coding, double mean_step, std::span<const double> mean_absolute)

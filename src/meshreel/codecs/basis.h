@@ -1,8 +1,9 @@
-/// The PCA basis as bits: raw, uniformly quantised, or Cobra (thesis 8.4, 8.5). One walk for both directions.
+/// The PCA basis as bits: raw, uniformly quantised, Cobra (thesis 8.4, 8.5) or LPC (3.1.10). One walk for both directions.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "meshreel/codecs/contexts.h"
 #include "meshreel/codecs/settings.h"
 #include "meshreel/coding/quantiser.h"
+#include "meshreel/predict/linear.h"
 #include "meshreel/predict/motion.h"
 
 namespace meshreel::codecs {
@@ -38,6 +40,31 @@ struct Basis {
 /// @source thesis (8.25)-(8.29)
 BasisLaw basis_law(BasisCoding coding, double mean_step, std::span<const double> mean_absolute);
 
+/// Predicts the next value of one coordinate of a trajectory.
+struct SeriesPredictor {
+    int order = 0;                                            ///< how many values before it are looked at
+    bool weighted = false;                                    ///< by weights (LPC), or as a motion (Cobra)
+    std::array<double, predict::linear_orders + 1> weights{}; ///< a_0 .. a_order of (3.21)
+
+    /// The value at v, of which `known` values before are known.
+    /// DEVIATES (Algorithm 1): the first values are predicted by as many as are known, not stored whole
+    double guess(const double* v, std::size_t known) const
+    {
+        if (static_cast<std::size_t>(order) > known) return predict::motion(v, static_cast<int>(known));
+        return weighted ? predict::linear(v, order, weights.data()) : predict::motion(v, order);
+    }
+};
+
+/// The order of LPC, 0 for what is none.
+constexpr int lpc_order(BasisCoding coding)
+{
+    return coding < BasisCoding::lpc1 ? 0 : 1 + static_cast<int>(coding) - static_cast<int>(BasisCoding::lpc1);
+}
+
+/// The weights a_0 .. a_order that predict trajectory t [3F] best, one set for its three coordinates.
+/// @source thesis 3.1.10: least squares over the whole original sequence
+std::array<double, predict::linear_orders + 1> lpc_weights(std::span<const double> t, int order);
+
 /// The order of the predictor (1 .. 4) that leaves the cheapest residuals on trajectory t [3F].
 int best_motion_order(std::span<const double> t, coding::Quantiser quantiser);
 
@@ -55,19 +82,19 @@ public:
     }
 
     /// Codes a trajectory t [3F], its three coordinates one after the other, in rows row .. row + 2.
-    void code(std::span<double> t, coding::Quantiser quantiser, int order, std::uint32_t row)
+    void code(std::span<double> t, coding::Quantiser quantiser, const SeriesPredictor& predictor, std::uint32_t row)
     {
         const std::size_t F = levels_.size();
         std::fill(levels_.begin(), levels_.end(), 0);
-        for (std::uint32_t c = 0; c < 3; ++c) code_coordinate(t.subspan(c * F, F), quantiser, order, row + c);
+        for (std::uint32_t c = 0; c < 3; ++c) code_coordinate(t.subspan(c * F, F), quantiser, predictor, row + c);
     }
 
 private:
-    void code_coordinate(std::span<double> v, coding::Quantiser quantiser, int order, std::uint32_t row)
+    void code_coordinate(std::span<double> v, coding::Quantiser quantiser, const SeriesPredictor& predictor,
+                         std::uint32_t row)
     {
         for (std::size_t f = 0; f < v.size(); ++f) {
-            // DEVIATES (Algorithm 1): the first values are predicted by as many as are known, not stored whole
-            const double guess = predict::motion(v.data() + f, std::min(order, static_cast<int>(f)));
+            const double guess = predictor.guess(v.data() + f, f);
             const std::int32_t wanted = Coder::writes ? quantiser.level(v[f] - guess) : 0;
             levels_[f] = coder_.level(grid_.index(row, nearby(f)), wanted);
             v[f] = guess + quantiser.value(levels_[f]);
@@ -86,6 +113,36 @@ private:
     std::vector<std::int32_t> levels_;
 };
 
+constexpr int weight_bits = 20; ///< of a weight, two's complement, raw
+/// a_j, j > 0, is a multiple of it in [-8, 8); a_0 a multiple of the vector's step.
+constexpr double weight_unit = 0x1p-16;
+
+/// Codes the weights that predict t [3F]: order + 1 raw numbers. Writing: weights are chosen; what is returned is what
+/// both sides use.
+template <class Coder>
+SeriesPredictor code_weights(Coder& coder, int order, std::span<const double> t, coding::Quantiser quantiser)
+{
+    constexpr std::int32_t half = 1 << (weight_bits - 1);
+    SeriesPredictor predictor{order, true, {}};
+    if (Coder::writes) predictor.weights = lpc_weights(t, order);
+    for (int j = 0; j <= order; ++j) {
+        const coding::Quantiser unit{j == 0 ? quantiser.step : weight_unit};
+        const std::int32_t wanted = std::clamp(unit.level(predictor.weights[j]), -half, half - 1);
+        const std::int32_t stored = coder.bits(wanted & (2 * half - 1), weight_bits);
+        predictor.weights[j] = unit.value(stored >= half ? stored - 2 * half : stored);
+    }
+    return predictor;
+}
+
+/// Codes what predicts t [3F]: nothing, the order of a motion, or weights.
+template <class Coder>
+SeriesPredictor code_predictor(Coder& coder, BasisCoding coding, std::span<const double> t, coding::Quantiser quantiser)
+{
+    if (const int order = lpc_order(coding); order > 0) return code_weights(coder, order, t, quantiser);
+    if (coding != BasisCoding::cobra) return {};
+    return {1 + coder.symbol(0, Coder::writes ? best_motion_order(t, quantiser) - 1 : 0), false, {}};
+}
+
 /// Codes the mean and all K basis vectors by the law; afterwards `basis` holds what the decoder will see.
 /// Level contexts: basis_context_rows of the grid. Symbol context 0: the orders, alphabet predict::motion_orders.
 template <class Coder>
@@ -95,10 +152,7 @@ void code_basis(Coder& coder, const BasisLaw& law, ContextGrid grid, Basis& basi
     for (std::size_t i = 0; i <= basis.rows.rows; ++i) {
         const std::span<double> t = i == 0 ? std::span<double>(basis.mean) : basis.rows.row(i - 1);
         const coding::Quantiser quantiser{i == 0 ? law.mean_step : law.step(i)};
-        int order = 0;
-        if (law.coding == BasisCoding::cobra)
-            order = 1 + coder.symbol(0, Coder::writes ? best_motion_order(t, quantiser) - 1 : 0);
-        walk.code(t, quantiser, order, i == 0 ? 0 : 3);
+        walk.code(t, quantiser, code_predictor(coder, law.coding, t, quantiser), i == 0 ? 0 : 3);
         if (ended(coder)) return;
     }
 }

@@ -23,7 +23,7 @@ struct PcaPayload {
         io.varint("bases", bases, {0, 3'000'000}, "K, the number of eigentrajectories");
         io.f64("step", step, container::positive, "D, quantisation step of the coefficients, model units");
         io.choice("entropy", entropy, {"huffman", "range"}, "coder of all residuals");
-        io.choice("basis_coding", law.coding, {"raw", "uniform", "cobra"}, "how mean and basis are coded");
+        io.choice("basis_coding", law.coding, basis_coding_names, "how mean and basis are coded");
         io.when(law.coding != BasisCoding::raw, "basis_coding is not raw", [&] {
             io.f64("mean_step", law.mean_step, container::positive, "Q_m (8.29), model units");
             io.f64("k", law.k, container::not_negative, "scale of the steps, Q_i = k i^q + a (8.26)");

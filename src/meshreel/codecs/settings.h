@@ -2,19 +2,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "meshreel/base/parallel.h"
 
 namespace meshreel {
 
-/// How the PCA basis is coded (thesis 8.1.2, 8.4).
+/// How the PCA basis is coded (thesis 8.1.2, 8.4). What is stored in a file counts from 0: new ones go last.
 enum class BasisCoding : std::uint8_t {
     raw,     ///< float32 values
     uniform, ///< one step for all components, no prediction (Amjoun)
-    cobra    ///< predicted in time, non-uniform steps (thesis 8.4, 8.5)
+    cobra,   ///< predicted in time by motion, non-uniform steps (thesis 8.4, 8.5)
+    lpc1,    ///< Cobra's steps, but predicted by sent weights of the value before (Karni and Gotsman, thesis 3.1.10)
+    lpc2,    ///< ... of the two values before
+    lpc3,    ///< ... of three
+    lpc4     ///< ... of four
 };
+
+/// Their names, in their order.
+inline constexpr std::array<std::string_view, 7> basis_coding_names = {"raw",  "uniform", "cobra", "lpc1",
+                                                                       "lpc2", "lpc3",    "lpc4"};
 
 /// How residuals become bits.
 enum class Entropy : std::uint8_t {

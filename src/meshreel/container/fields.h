@@ -99,14 +99,18 @@ public:
     }
     /// One byte; the enumerators count from 0 in the order of `names`.
     template <class Enum>
-    void choice(std::string_view name, Enum& value, std::initializer_list<std::string_view> names,
-                std::string_view meaning)
+    void choice(std::string_view name, Enum& value, std::span<const std::string_view> names, std::string_view meaning)
     {
         const Range range{0, names.size() - 1};
         const std::uint64_t stored =
-            self().integer({name, Encoding::u8, meaning, range, {}, {}, {names.begin(), names.size()}},
-                           static_cast<std::uint64_t>(value));
+            self().integer({name, Encoding::u8, meaning, range, {}, {}, names}, static_cast<std::uint64_t>(value));
         if constexpr (Io::reads) value = static_cast<Enum>(stored);
+    }
+    template <class Enum>
+    void choice(std::string_view name, Enum& value, std::initializer_list<std::string_view> names,
+                std::string_view meaning)
+    {
+        choice(name, value, std::span(names.begin(), names.size()), meaning);
     }
     void tag(std::string_view name, Tag& value, std::string_view meaning)
     {
