@@ -34,6 +34,11 @@ Basis through_the_coder(const BasisLaw& law, Basis& basis)
     return copy;
 }
 
+MatrixView<const double> one(const std::vector<double>& t)
+{
+    return {t.data(), 1, t.size()};
+}
+
 /// Three coordinates of a series with v_f = a_0 + a_1 v_(f-1) + a_2 v_(f-2).
 std::vector<double> following(double a0, double a1, double a2)
 {
@@ -90,10 +95,21 @@ TEST(Cobra, EveryValueIsWithinHalfAStep)
 
 TEST(Lpc, TheWeightsOfASeriesThatFollowsALawAreThatLaw)
 {
-    const auto weights = lpc_weights(following(0.25, 1.6, -0.8), 2);
+    const std::vector<double> t = following(0.25, 1.6, -0.8);
+    const auto weights = lpc_weights(one(t), 2);
     EXPECT_NEAR(weights[0], 0.25, 1e-9);
     EXPECT_NEAR(weights[1], 1.6, 1e-9);
     EXPECT_NEAR(weights[2], -0.8, 1e-9);
+}
+
+TEST(Lpc, HasOneSetOfWeightsForAllVectors)
+{
+    Matrix<double> both(2, 90);
+    std::ranges::copy(following(0.0, 0.5, 0.0), both.row(0).begin());
+    std::ranges::copy(following(0.0, 0.7, 0.0), both.row(1).begin());
+    const double shared = lpc_weights(both.view(), 1)[1];
+    EXPECT_GT(shared, 0.5);
+    EXPECT_LT(shared, 0.7);
 }
 
 TEST(Lpc, OfAHigherOrderNeverLeavesMore)
@@ -102,7 +118,7 @@ TEST(Lpc, OfAHigherOrderNeverLeavesMore)
     for (std::size_t i = 0; i < t.size(); ++i) t[i] = std::sin(0.3 * static_cast<double>(i * i % 37));
     double before = 1e300;
     for (int order = 1; order <= predict::linear_orders; ++order) {
-        const auto weights = lpc_weights(t, order);
+        const auto weights = lpc_weights(one(t), order);
         double sum = 0; // over the same frames for every order
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t f = predict::linear_orders; f < 40; ++f)
@@ -131,7 +147,7 @@ TEST(Lpc, AWeightTooLargeToBeSentCostsBitsButNoAccuracy)
     Basis basis{polynomial(0, 8), Matrix<double>(1, 24)};
     for (std::size_t i = 0; i < 24; ++i) basis.rows.values[i] = 1e-6 * std::pow(10.0, static_cast<double>(i % 8));
     const std::vector<double> original = basis.rows.values;
-    EXPECT_NEAR(lpc_weights(original, 1)[1], 10.0, 1e-6);
+    EXPECT_NEAR(lpc_weights(one(original), 1)[1], 10.0, 1e-6);
     const BasisLaw law = basis_law(BasisCoding::lpc1, 0.01, std::vector<double>{10.0});
     const Basis copy = through_the_coder(law, basis);
     for (std::size_t i = 0; i < 24; ++i) EXPECT_NEAR(copy.rows.values[i], original[i], 0.0005 + 1e-12);

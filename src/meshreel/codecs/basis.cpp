@@ -73,21 +73,25 @@ int best_motion_order(std::span<const double> t, coding::Quantiser quantiser)
     return best;
 }
 
-std::array<double, predict::linear_orders + 1> lpc_weights(std::span<const double> t, int order)
+std::array<double, predict::linear_orders + 1> lpc_weights(MatrixView<const double> t, int order)
 {
-    std::array<double, predict::linear_orders + 1> weights{};
-    const std::size_t F = t.size() / 3, m = static_cast<std::size_t>(order);
-    if (F <= m) return weights;
-    Matrix<double> before(3 * (F - m), m + 1);
-    std::vector<double> wanted;
-    for (std::size_t c = 0; c < 3; ++c)
+    std::array<double, predict::linear_orders + 1> weights{}, row{};
+    const std::size_t F = t.cols / 3, m = static_cast<std::size_t>(order);
+    // The normal equations of the set before (3.21): a line a value would be as many lines as the basis has values.
+    Matrix<double> squares(m + 1, m + 1);
+    std::vector<double> right(m + 1);
+    for (std::size_t series = 0; series < 3 * t.rows; ++series) {
+        const double* v = t.data + series * F;
         for (std::size_t f = m; f < F; ++f) {
-            const std::span<double> row = before.row(wanted.size());
             row[0] = 1.0;
-            for (std::size_t j = 1; j <= m; ++j) row[j] = t[c * F + f - j];
-            wanted.push_back(t[c * F + f]);
+            for (std::size_t j = 1; j <= m; ++j) row[j] = v[f - j];
+            for (std::size_t i = 0; i <= m; ++i) {
+                for (std::size_t j = 0; j <= m; ++j) squares(i, j) += row[i] * row[j];
+                right[i] += row[i] * v[f];
+            }
         }
-    const std::vector<double> best = linalg::least_squares(before.view(), wanted); // the set before (3.21)
+    }
+    const std::vector<double> best = linalg::least_squares(squares.view(), right);
     std::copy(best.begin(), best.end(), weights.begin());
     return weights;
 }

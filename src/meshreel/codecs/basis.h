@@ -61,9 +61,9 @@ constexpr int lpc_order(BasisCoding coding)
     return coding < BasisCoding::lpc1 ? 0 : 1 + static_cast<int>(coding) - static_cast<int>(BasisCoding::lpc1);
 }
 
-/// The weights a_0 .. a_order that predict trajectory t [3F] best, one set for its three coordinates.
-/// @source thesis 3.1.10: least squares over the whole original sequence
-std::array<double, predict::linear_orders + 1> lpc_weights(std::span<const double> t, int order);
+/// The weights a_0 .. a_order that predict trajectories t [n x 3F] best: one set for all, least squares over the whole
+/// sequences before quantisation.  @source thesis 3.1.10, 8.5
+std::array<double, predict::linear_orders + 1> lpc_weights(MatrixView<const double> t, int order);
 
 /// The order of the predictor (1 .. 4) that leaves the cheapest residuals on trajectory t [3F].
 int best_motion_order(std::span<const double> t, coding::Quantiser quantiser);
@@ -114,13 +114,13 @@ private:
 };
 
 constexpr int weight_bits = 20; ///< of a weight, two's complement, raw
-/// a_j, j > 0, is a multiple of it in [-8, 8); a_0 a multiple of the vector's step.
+/// a_j, j > 0, is a multiple of it in [-8, 8); a_0 a multiple of the step of the first vector it is used for.
 constexpr double weight_unit = 0x1p-16;
 
-/// Codes the weights that predict t [3F]: order + 1 raw numbers. Writing: weights are chosen; what is returned is what
-/// both sides use.
+/// Codes the weights that predict trajectories t [n x 3F]: order + 1 raw numbers. Writing: weights are chosen; what is
+/// returned is what both sides use.
 template <class Coder>
-SeriesPredictor code_weights(Coder& coder, int order, std::span<const double> t, coding::Quantiser quantiser)
+SeriesPredictor code_weights(Coder& coder, int order, MatrixView<const double> t, coding::Quantiser quantiser)
 {
     constexpr std::int32_t half = 1 << (weight_bits - 1);
     SeriesPredictor predictor{order, true, {}};
@@ -134,14 +134,29 @@ SeriesPredictor code_weights(Coder& coder, int order, std::span<const double> t,
     return predictor;
 }
 
-/// Codes what predicts t [3F]: nothing, the order of a motion, or weights.
+/// Codes what predicts vectors: nothing; the order of a motion, for each; weights, for the mean and for all others.
 template <class Coder>
-SeriesPredictor code_predictor(Coder& coder, BasisCoding coding, std::span<const double> t, coding::Quantiser quantiser)
-{
-    if (const int order = lpc_order(coding); order > 0) return code_weights(coder, order, t, quantiser);
-    if (coding != BasisCoding::cobra) return {};
-    return {1 + coder.symbol(0, Coder::writes ? best_motion_order(t, quantiser) - 1 : 0), false, {}};
-}
+class PredictorWalk {
+public:
+    PredictorWalk(Coder& coder, BasisCoding coding) : coder_(coder), coding_(coding) {}
+
+    /// The predictor of vector i, 0 the mean. basis: writing: vectors from i on still as they were.
+    const SeriesPredictor& next(std::size_t i, const Basis& basis, coding::Quantiser quantiser)
+    {
+        const std::span<const double> t = i == 0 ? std::span<const double>(basis.mean) : basis.rows.row(i - 1);
+        const int order = lpc_order(coding_);
+        if (order > 0 && i <= 1)
+            present_ = code_weights(coder_, order, {t.data(), i == 0 ? 1 : basis.rows.rows, t.size()}, quantiser);
+        if (coding_ == BasisCoding::cobra)
+            present_.order = 1 + coder_.symbol(0, Coder::writes ? best_motion_order(t, quantiser) - 1 : 0);
+        return present_;
+    }
+
+private:
+    Coder& coder_;
+    BasisCoding coding_;
+    SeriesPredictor present_;
+};
 
 /// Codes the mean and all K basis vectors by the law; afterwards `basis` holds what the decoder will see.
 /// Level contexts: basis_context_rows of the grid. Symbol context 0: the orders, alphabet predict::motion_orders.
@@ -149,10 +164,11 @@ template <class Coder>
 void code_basis(Coder& coder, const BasisLaw& law, ContextGrid grid, Basis& basis)
 {
     SeriesWalk<Coder> walk(coder, grid, basis.mean.size() / 3);
+    PredictorWalk<Coder> predictors(coder, law.coding);
     for (std::size_t i = 0; i <= basis.rows.rows; ++i) {
         const std::span<double> t = i == 0 ? std::span<double>(basis.mean) : basis.rows.row(i - 1);
         const coding::Quantiser quantiser{i == 0 ? law.mean_step : law.step(i)};
-        walk.code(t, quantiser, code_predictor(coder, law.coding, t, quantiser), i == 0 ? 0 : 3);
+        walk.code(t, quantiser, predictors.next(i, basis, quantiser), i == 0 ? 0 : 3);
         if (ended(coder)) return;
     }
 }
