@@ -19,7 +19,7 @@ namespace meshreel::cli {
 
 namespace {
 
-Error usage(std::string message)
+Error unreadable(std::string message)
 {
     return {ErrorCode::usage, std::move(message)};
 }
@@ -46,13 +46,13 @@ Result<Amount> parse_amount(const std::string& text)
     amount.percent = !text.empty() && text.back() == '%';
     const std::string digits = amount.percent ? text.substr(0, text.size() - 1) : text;
     if (!read_double(digits, amount.value) || amount.value <= 0.0)
-        return usage(fmt::format("'{}' is not a number above 0 such as 0.1% or 0.004", text));
+        return unreadable(fmt::format("'{}' is not a number above 0 such as 0.1% or 0.004", text));
     return amount;
 }
 
 Result<io::FrameRange> parse_frames(const std::string& text)
 {
-    const Error problem = usage(fmt::format("'{}' is not a range of frames such as 10:20, 10:20:2 or ::2", text));
+    const Error problem = unreadable(fmt::format("'{}' is not a range of frames such as 10:20, 10:20:2 or ::2", text));
     io::FrameRange range;
     const std::array<std::uint64_t*, 3> parts{&range.first, &range.last, &range.step};
     std::string_view rest = text;
@@ -70,7 +70,7 @@ Result<io::FrameRange> parse_frames(const std::string& text)
     }
     if (text.empty() || range.step == 0) return problem;
     if (colons == 0) range.last = range.first;
-    if (range.last < range.first) return usage(fmt::format("'{}' ends before it begins", text));
+    if (range.last < range.first) return unreadable(fmt::format("'{}' ends before it begins", text));
     return range;
 }
 
@@ -89,7 +89,7 @@ Result<std::uint64_t> parse_memory(const std::string& text)
     }
     double value = 0.0;
     if (!read_double(digits, value) || value <= 0.0 || value * factor >= 0x1p63)
-        return usage(fmt::format("'{}' is not a size such as 512M or 4G", text));
+        return unreadable(fmt::format("'{}' is not a size such as 512M or 4G", text));
     return static_cast<std::uint64_t>(value * factor);
 }
 

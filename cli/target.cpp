@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error usage(std::string message, std::string file)
+Error no_target(std::string message, std::string file)
 {
     return {ErrorCode::usage, std::move(message), {}, std::move(file)};
 }
@@ -58,10 +58,11 @@ Status check_folder(const std::string& path)
 
 Status check_standard_output(const Target& target, const Console& console)
 {
-    if (console.json) return usage("--json needs standard output, where the data go already", "-");
+    if (console.json) return no_target("--json needs standard output, where the data go already", "-");
     if (::isatty(STDOUT_FILENO) != 0)
-        return usage("will not write data to a terminal; redirect it or name a file", "-");
-    if (target.format_name().empty()) return usage("standard output has no extension; say its format by --format", "-");
+        return no_target("will not write data to a terminal; redirect it or name a file", "-");
+    if (target.format_name().empty())
+        return no_target("standard output has no extension; say its format by --format", "-");
     return Ok{};
 }
 
@@ -69,11 +70,11 @@ Status check_standard_output(const Target& target, const Console& console)
 Result<Go> prepare_path(const Target& target, const std::string& path, std::initializer_list<std::string> inputs)
 {
     for (const std::string& input : inputs)
-        if (same_file(path, input)) return usage("is the input too; give the output another name", path);
+        if (same_file(path, input)) return no_target("is the input too; give the output another name", path);
     MESHREEL_TRY(const std::string there, existing(path));
     if (!there.empty() && target.skip_existing) return Go::skip;
     if (!there.empty() && !target.overwrite)
-        return usage("exists already; pass -y to overwrite it, or --skip-existing to leave it", there);
+        return no_target("exists already; pass -y to overwrite it, or --skip-existing to leave it", there);
     MESHREEL_CHECK(check_folder(path));
     expect_output_beside(path);
     return Go::on;
@@ -159,7 +160,7 @@ Result<Go> prepare(const Target& target, std::initializer_list<std::string> inpu
     if (target.path != "-" && target.format.empty()) MESHREEL_CHECK(check_extension(target.path));
     MESHREEL_TRY(const Go go, prepare_path(target, target.path, inputs));
     if (go == Go::skip || target.mesh_out.empty()) return go;
-    if (same_file(target.path, target.mesh_out)) return usage("is named twice as output", target.mesh_out);
+    if (same_file(target.path, target.mesh_out)) return no_target("is named twice as output", target.mesh_out);
     return prepare_path(target, target.mesh_out, inputs);
 }
 

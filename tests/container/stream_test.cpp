@@ -9,7 +9,7 @@
 namespace meshreel::container {
 namespace {
 
-Error error_of(const Bytes& bytes, const DecodeLimits& limits = {})
+Error stream_error_of(const Bytes& bytes, const DecodeLimits& limits = {})
 {
     const auto file = StreamReader::open(bytes, limits);
     return file.ok() ? Error{ErrorCode::runtime, "no error"} : file.error();
@@ -27,7 +27,7 @@ TEST(Stream, every_truncation_is_an_error_that_names_byte_and_field)
 {
     const Bytes bytes = Clip().file();
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-        const Error error = error_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)});
+        const Error error = stream_error_of({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)});
         ASSERT_EQ(error.code, ErrorCode::bad_input) << size;
         EXPECT_FALSE(error.field.empty()) << size;
         ASSERT_TRUE(error.place.has_value()) << size;
@@ -43,17 +43,17 @@ TEST(Stream, every_flipped_bit_is_an_error_in_skipped_chunks_too)
     ASSERT_TRUE(StreamReader::open(bytes).ok());
     for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
         bytes[bit / 8] ^= static_cast<std::uint8_t>(1 << bit % 8);
-        ASSERT_NE(error_of(bytes).code, ErrorCode::runtime) << "bit " << bit;
+        ASSERT_NE(stream_error_of(bytes).code, ErrorCode::runtime) << "bit " << bit;
         bytes[bit / 8] ^= static_cast<std::uint8_t>(1 << bit % 8);
     }
 }
 
 TEST(Stream, says_what_is_not_a_reel_file_and_what_was_damaged_in_text_mode)
 {
-    EXPECT_EQ(error_of({'P', 'K', 3, 4}).sentence(), "byte 0: signature: not a .reel file");
+    EXPECT_EQ(stream_error_of({'P', 'K', 3, 4}).sentence(), "byte 0: signature: not a .reel file");
     Bytes bytes = Clip().file();
     bytes.erase(bytes.begin() + 5); // CR LF -> LF
-    EXPECT_THAT(error_of(bytes).sentence(), testing::HasSubstr("text mode"));
+    EXPECT_THAT(stream_error_of(bytes).sentence(), testing::HasSubstr("text mode"));
 }
 
 TEST(Stream, refuses_a_later_major_version_and_reads_a_later_minor_one)
@@ -64,17 +64,17 @@ TEST(Stream, refuses_a_later_major_version_and_reads_a_later_minor_one)
     EXPECT_TRUE(StreamReader::open(bytes).ok());
     bytes[8] = 2;
     store<4>(checksum_of(ByteView(bytes).first(12)), bytes.data() + 12);
-    EXPECT_EQ(error_of(bytes).code, ErrorCode::unsupported);
+    EXPECT_EQ(stream_error_of(bytes).code, ErrorCode::unsupported);
 }
 
 TEST(Stream, skips_a_chunk_it_does_not_know_if_its_first_letter_is_small_and_refuses_it_otherwise)
 {
     StreamWriter small = Clip().writer();
     small.add(make_tag("news"), ByteView{});
-    EXPECT_EQ(error_of(std::move(small).finish()).message, "no error");
+    EXPECT_EQ(stream_error_of(std::move(small).finish()).message, "no error");
     StreamWriter large = Clip().writer();
     large.add(make_tag("News"), ByteView{});
-    const Error error = error_of(std::move(large).finish());
+    const Error error = stream_error_of(std::move(large).finish());
     EXPECT_EQ(error.code, ErrorCode::unsupported);
     EXPECT_EQ(error.field, "News");
 }
@@ -82,21 +82,21 @@ TEST(Stream, skips_a_chunk_it_does_not_know_if_its_first_letter_is_small_and_ref
 TEST(Stream, refuses_chunks_missing_repeated_or_out_of_place)
 {
     using namespace type;
-    EXPECT_EQ(error_of(file_of({head, time, conn, segm})).message, "no error");
-    EXPECT_EQ(error_of(file_of({time, head, conn, segm})).field, "HEAD");
-    EXPECT_EQ(error_of(file_of({head, time, conn})).field, "SEGM");
-    EXPECT_EQ(error_of(file_of({head, conn, segm})).field, "TIME");
-    EXPECT_EQ(error_of(file_of({head, time, segm})).field, "CONN");
-    EXPECT_EQ(error_of(file_of({head, time, time, conn, segm})).message, "a second one");
-    EXPECT_EQ(error_of(file_of({head, time, indx, segm})).field, "INDX");
-    EXPECT_EQ(error_of(file_of({})).field, "HEAD");
+    EXPECT_EQ(stream_error_of(file_of({head, time, conn, segm})).message, "no error");
+    EXPECT_EQ(stream_error_of(file_of({time, head, conn, segm})).field, "HEAD");
+    EXPECT_EQ(stream_error_of(file_of({head, time, conn})).field, "SEGM");
+    EXPECT_EQ(stream_error_of(file_of({head, conn, segm})).field, "TIME");
+    EXPECT_EQ(stream_error_of(file_of({head, time, segm})).field, "CONN");
+    EXPECT_EQ(stream_error_of(file_of({head, time, time, conn, segm})).message, "a second one");
+    EXPECT_EQ(stream_error_of(file_of({head, time, indx, segm})).field, "INDX");
+    EXPECT_EQ(stream_error_of(file_of({})).field, "HEAD");
 }
 
 TEST(Stream, refuses_bytes_after_the_end)
 {
     Bytes bytes = Clip().file();
     bytes.push_back(0);
-    EXPECT_THAT(error_of(bytes).sentence(), testing::HasSubstr("1 bytes follow the end"));
+    EXPECT_THAT(stream_error_of(bytes).sentence(), testing::HasSubstr("1 bytes follow the end"));
 }
 
 TEST(Stream, refuses_an_index_that_does_not_agree_with_the_chunks)
@@ -114,7 +114,7 @@ TEST(Stream, refuses_an_index_that_does_not_agree_with_the_chunks)
         EXPECT_TRUE(forged.add(type::tail, Tail{index_offset, size}).ok());
         Bytes bytes = std::move(forged).finish();
         bytes.resize(size); // without the end that finish() wrote
-        EXPECT_EQ(error_of(bytes).field, wrong != 0 ? "INDX.chunks" : "");
+        EXPECT_EQ(stream_error_of(bytes).field, wrong != 0 ? "INDX.chunks" : "");
     }
 }
 
@@ -125,8 +125,8 @@ TEST(Stream, refuses_absurd_sizes_before_it_allocates)
     bytes.resize(Preamble::size);
     bytes.insert(bytes.end(), absurd.begin(), absurd.end());
     bytes.resize(bytes.size() + 100);
-    EXPECT_EQ(error_of(bytes).field, "HEAD.size");
-    EXPECT_EQ(error_of(Clip().file(), {.max_memory = 100}).message, "too many chunks");
+    EXPECT_EQ(stream_error_of(bytes).field, "HEAD.size");
+    EXPECT_EQ(stream_error_of(Clip().file(), {.max_memory = 100}).message, "too many chunks");
 }
 
 TEST(Stream, can_be_read_in_parts_from_its_end)

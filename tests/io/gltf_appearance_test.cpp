@@ -44,7 +44,7 @@ json written_json(const Animation& animation)
 }
 
 /// Two materials, a texture, three primitives in two nodes of one name, attributes of several types.
-GlbMaker dressed()
+GlbMaker dressed_glb()
 {
     GlbMaker made;
     json first = made.triangle(), second = made.triangle(), third = made.triangle();
@@ -80,7 +80,7 @@ GlbMaker dressed()
 
 TEST(GltfAppearance, AttributesKeepTheirTypeAndBits)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     const Animation read = loaded(made);
     const Attribute* color = read.appearance.find("color0");
     ASSERT_NE(color, nullptr);
@@ -96,7 +96,7 @@ TEST(GltfAppearance, AttributesKeepTheirTypeAndBits)
 
 TEST(GltfAppearance, OneAttributeInTwoTypesIsKeptAsTwo)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     const Animation read = loaded(made);
     const Attribute *floats = read.appearance.find("uv0"), *shorts = read.appearance.find("uv0|u16nx2");
     ASSERT_TRUE(floats != nullptr && shorts != nullptr);
@@ -106,7 +106,7 @@ TEST(GltfAppearance, OneAttributeInTwoTypesIsKeptAsTwo)
 
 TEST(GltfAppearance, TrianglesKnowTheirMaterialNodeMeshAndPrimitive)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     const Animation read = loaded(made);
     EXPECT_EQ(read.appearance.materials, std::vector<std::string>({"leaf", "material_1"}));
     EXPECT_EQ(read.appearance.groups,
@@ -117,7 +117,7 @@ TEST(GltfAppearance, TrianglesKnowTheirMaterialNodeMeshAndPrimitive)
 
 TEST(GltfAppearance, ImagesAreAssetsWithTheirBytesAndType)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     const Animation read = loaded(made);
     ASSERT_NE(asset(read, "gltf/images/0"), nullptr);
     EXPECT_EQ(text_of(asset(read, "gltf/images/0")->bytes), "\x89PNG not really");
@@ -128,7 +128,7 @@ TEST(GltfAppearance, ImagesAreAssetsWithTheirBytesAndType)
 
 TEST(GltfAppearance, AnImageThatIsMissingIsToldAndKeepsItsReference)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     made.root["images"][1] = {{"uri", "missing.jpg"}};
     const Listener listener;
     const Animation read = loaded(made, listener.options);
@@ -139,7 +139,7 @@ TEST(GltfAppearance, AnImageThatIsMissingIsToldAndKeepsItsReference)
 
 TEST(GltfAppearance, ABinaryAndAnImageBesideTheFileAreRead)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     made.bytes();
     const Folder folder;
     write(folder / "a b.bin", text_of(made.binary));
@@ -154,7 +154,7 @@ TEST(GltfAppearance, ABinaryAndAnImageBesideTheFileAreRead)
 
 TEST(GltfAppearance, AGlbGoesOutAsItCameIn)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     const Animation once = loaded(made), twice = through_glb(once);
     EXPECT_EQ(twice.triangles, once.triangles);
     EXPECT_TRUE(same_bits(twice.positions, once.positions));
@@ -173,7 +173,7 @@ TEST(GltfAppearance, AGlbGoesOutAsItCameIn)
 
 TEST(GltfAppearance, MaterialsTexturesSamplersAndCreditsGoOutAsTheyCameIn)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     const json out = written_json(loaded(made));
     for (const char* list : {"materials", "textures", "samplers"}) EXPECT_EQ(out[list], made.root[list]) << list;
     EXPECT_EQ(out["asset"]["copyright"], "CC-BY someone");
@@ -185,7 +185,7 @@ TEST(GltfAppearance, MaterialsTexturesSamplersAndCreditsGoOutAsTheyCameIn)
 
 TEST(GltfAppearance, ACopyOfMaterialsThatDoesNotFitIsNotUsed)
 {
-    GlbMaker made = dressed();
+    GlbMaker made = dressed_glb();
     Animation read = loaded(made);
     read.appearance.materials.push_back("one more");
     const json out = written_json(read);

@@ -10,11 +10,11 @@ using namespace meshreel::io::test;
 
 namespace {
 
-Result<Animation> parse(const Bytes& bytes, const LoadOptions& options = {})
+Result<Animation> parsed_ply(const Bytes& bytes, const LoadOptions& options = {})
 {
     return parse_ply(bytes, options);
 }
-Result<Animation> parse(std::string_view text, const LoadOptions& options = {})
+Result<Animation> parsed_ply(std::string_view text, const LoadOptions& options = {})
 {
     return parse_ply(bytes_of(text), options);
 }
@@ -24,7 +24,7 @@ const std::string triangle_header =
     "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
 
 /// A tetrahedron with one attribute of each kind that a PLY file holds.
-Animation dressed()
+Animation dressed_ply()
 {
     Animation made = tetrahedron(1);
     auto& attributes = made.appearance.attributes;
@@ -84,15 +84,15 @@ TEST(Ply, TextAndBinaryGiveBackEveryAttributeBitForBit)
     for (const bool binary : {true, false}) {
         SaveOptions options;
         options.binary = binary;
-        const auto read = parse(*write_ply(dressed(), 0, options));
+        const auto read = parsed_ply(*write_ply(dressed_ply(), 0, options));
         ASSERT_TRUE(read.ok()) << why(read);
-        expect_same(dressed(), *read);
+        expect_same(dressed_ply(), *read);
     }
 }
 
 TEST(Ply, BigEndianFilesAreRead)
 {
-    const auto read = parse(swapped(*write_ply(tetrahedron(1), 0, {})));
+    const auto read = parsed_ply(swapped(*write_ply(tetrahedron(1), 0, {})));
     ASSERT_TRUE(read.ok()) << why(read);
     expect_same(tetrahedron(1), *read);
 }
@@ -104,7 +104,7 @@ TEST(Ply, TextureCoordinatesOfCornersSurvive)
     for (std::uint32_t i = 0; i < 12; ++i) indices[i] = i * 5 % 6;
     made.appearance.attributes.push_back(
         indexed(float_attribute("uv0", Domain::corner, 2, std::span(made.positions).first(12)), indices));
-    const auto read = parse(*write_ply(made, 0, {}));
+    const auto read = parsed_ply(*write_ply(made, 0, {}));
     ASSERT_TRUE(read.ok()) << why(read);
     const Attribute* uvs = read->appearance.find("uv0");
     ASSERT_NE(uvs, nullptr);
@@ -115,7 +115,7 @@ TEST(Ply, TextureCoordinatesOfCornersSurvive)
 TEST(Ply, PolygonsBecomeFansThatShareTheirFacesValues)
 {
     Listener listener;
-    const auto read = parse(
+    const auto read = parsed_ply(
         "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\nproperty double x\nproperty double y\n"
         "property double z\nelement face 2\nproperty uchar kind\nproperty list uchar int vertex_index\n"
         "element edge 1\nproperty int vertex1\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0.1\n7 4 0 1 2 3\n9 3 0 1 2\n0\n",
@@ -136,7 +136,7 @@ TEST(Ply, NamesThatWouldMeetAreKeptApart)
     made.appearance.attributes.push_back(float_attribute("x", Domain::vertex, 1, std::span(made.positions).first(4)));
     made.appearance.attributes.push_back(float_attribute("a b", Domain::vertex, 1, std::span(made.positions).first(4)));
     made.appearance.attributes.push_back(float_attribute("a_b", Domain::vertex, 1, std::span(made.positions).last(4)));
-    const auto read = parse(*write_ply(made, 0, {}));
+    const auto read = parsed_ply(*write_ply(made, 0, {}));
     ASSERT_TRUE(read.ok()) << why(read);
     EXPECT_TRUE(same_bits(read->positions, made.positions));
     EXPECT_EQ(read->appearance.find("x_")->values, made.appearance.find("x")->values);
@@ -152,7 +152,7 @@ TEST(Ply, TrianglesWithoutAMaterialStayWithoutOne)
     for (const bool binary : {true, false}) {
         SaveOptions options;
         options.binary = binary;
-        const auto read = parse(*write_ply(made, 0, options));
+        const auto read = parsed_ply(*write_ply(made, 0, options));
         ASSERT_TRUE(read.ok()) << why(read);
         EXPECT_TRUE(validate(*read).ok()) << why(validate(*read));
         EXPECT_EQ(triangle_number(*read->appearance.find("material"), 0), 0u);
@@ -163,9 +163,9 @@ TEST(Ply, TrianglesWithoutAMaterialStayWithoutOne)
 TEST(Ply, AForeignPropertyCalledMaterialGoesByAnotherName)
 {
     const auto read =
-        parse("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-              "property uchar group\nelement face 1\nproperty list uchar int vertex_indices\n"
-              "property int material\nend_header\n0 0 0 1\n1 0 0 2\n1 1 0 3\n3 0 1 2 5\n");
+        parsed_ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                   "property uchar group\nelement face 1\nproperty list uchar int vertex_indices\n"
+                   "property int material\nend_header\n0 0 0 1\n1 0 0 2\n1 1 0 3\n3 0 1 2 5\n");
     ASSERT_TRUE(read.ok()) << why(read);
     EXPECT_TRUE(validate(*read).ok()) << why(validate(*read));
     EXPECT_EQ(triangle_number(*read->appearance.find("material_id"), 0), 5u);
@@ -174,7 +174,7 @@ TEST(Ply, AForeignPropertyCalledMaterialGoesByAnotherName)
 
 TEST(Ply, EveryTruncationOfABinaryFileIsAnError)
 {
-    const Bytes good = *write_ply(dressed(), 0, {});
+    const Bytes good = *write_ply(dressed_ply(), 0, {});
     for (std::size_t size = 0; size < good.size(); ++size)
         EXPECT_FALSE(parse_ply(ByteView(good).first(size), {}).ok()) << size;
 }
@@ -184,11 +184,11 @@ TEST(Ply, EveryFlippedBitGivesAnErrorOrAMeshThatFits)
     for (const bool binary : {true, false}) {
         SaveOptions options;
         options.binary = binary;
-        const Bytes good = *write_ply(dressed(), 0, options);
+        const Bytes good = *write_ply(dressed_ply(), 0, options);
         for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
             Bytes bad = good;
             bad[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
-            const auto read = parse(bad);
+            const auto read = parsed_ply(bad);
             if (!read.ok()) continue;
             const auto valid = validate(*read);
             EXPECT_TRUE(valid.ok() || valid.error().field == "positions") << bit << ' ' << why(valid);
@@ -199,17 +199,18 @@ TEST(Ply, EveryFlippedBitGivesAnErrorOrAMeshThatFits)
 TEST(Ply, ErrorsNameLineOrByteAndField)
 {
     const std::string h = triangle_header;
-    EXPECT_EQ(why(parse("solid\n")), "line 1: signature: this is no PLY file: its first line is not 'ply'");
-    EXPECT_EQ(why(parse("ply\nformat ascii 2.0\n")), "line 2: format: version '2.0'; 1.0 is known");
-    EXPECT_EQ(why(parse(h + "0.25 0 0\n1 0 0\n1 1\n")), "line 12: z: the file ends before this number");
-    EXPECT_EQ(why(parse(h + "0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n")),
+    EXPECT_EQ(why(parsed_ply("solid\n")), "line 1: signature: this is no PLY file: its first line is not 'ply'");
+    EXPECT_EQ(why(parsed_ply("ply\nformat ascii 2.0\n")), "line 2: format: version '2.0'; 1.0 is known");
+    EXPECT_EQ(why(parsed_ply(h + "0.25 0 0\n1 0 0\n1 1\n")), "line 12: z: the file ends before this number");
+    EXPECT_EQ(why(parsed_ply(h + "0 0 0\n1 0 0\n1 1 0\n3 0 1 3\n")),
               "line 13: vertex_indices: index 3 of face 0 is not one of the 3 vertices");
-    EXPECT_EQ(why(parse(h + "0 0 0\n1 0 x\n1 1 0\n3 0 1 2\n")), "line 11: z: 'x' is no number of the property's type");
-    EXPECT_EQ(why(parse(h + "0 0 0\n1 0 0\n1 1 0\n300 0 1 2\n")),
+    EXPECT_EQ(why(parsed_ply(h + "0 0 0\n1 0 x\n1 1 0\n3 0 1 2\n")),
+              "line 11: z: 'x' is no number of the property's type");
+    EXPECT_EQ(why(parsed_ply(h + "0 0 0\n1 0 0\n1 1 0\n300 0 1 2\n")),
               "line 13: vertex_indices: '300' is no number of the property's type");
-    EXPECT_EQ(why(parse(h + "0 0 0\n1 0 0\n1 1 0\n200 0 1 2\n")),
+    EXPECT_EQ(why(parsed_ply(h + "0 0 0\n1 0 0\n1 1 0\n200 0 1 2\n")),
               "line 13: vertex_indices: a list of 200 numbers, but 7 bytes are left");
     std::string many = h;
     many.replace(many.find("vertex 3"), 8, "vertex 99999999");
-    EXPECT_NE(why(parse(many + "0 0 0\n")).find("99999999 rows are promised"), std::string::npos);
+    EXPECT_NE(why(parsed_ply(many + "0 0 0\n")).find("99999999 rows are promised"), std::string::npos);
 }

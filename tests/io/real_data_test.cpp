@@ -10,7 +10,7 @@ namespace {
 
 const std::string data = std::string(MESHREEL_SOURCE_DIR) + "/../shared/data/";
 
-struct Counts {
+struct RealCounts {
     const char* name;
     std::uint32_t vertices;
     std::size_t triangles, frames;
@@ -18,11 +18,11 @@ struct Counts {
 
 } // namespace
 
-class RealSequence : public testing::TestWithParam<Counts> {};
+class RealSequence : public testing::TestWithParam<RealCounts> {};
 
 TEST_P(RealSequence, IsReadWithItsCounts)
 {
-    const Counts expected = GetParam();
+    const RealCounts expected = GetParam();
     if (!std::filesystem::exists(data + expected.name)) GTEST_SKIP() << "no data beside the project";
     LoadOptions options;
     options.fps = 25;
@@ -49,12 +49,13 @@ TEST_P(RealSequence, WritesBackToTheSameBytes)
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, RealSequence,
-                         testing::Values(Counts{"chicken", 3030, 5664, 400}, Counts{"dance", 7061, 14118, 201},
-                                         Counts{"cow", 2904, 5804, 204}, Counts{"crane", 10002, 20000, 175},
-                                         Counts{"horse_gallop", 8431, 16843, 48}, Counts{"walker", 13380, 26756, 120},
-                                         Counts{"cloth", 10000, 19602, 200}, Counts{"flag", 6144, 11970, 150},
-                                         Counts{"snake", 9179, 18354, 134}, Counts{"dolphin", 4012, 8000, 101},
-                                         Counts{"bone", 754, 1504, 400}),
+                         testing::Values(RealCounts{"chicken", 3030, 5664, 400}, RealCounts{"dance", 7061, 14118, 201},
+                                         RealCounts{"cow", 2904, 5804, 204}, RealCounts{"crane", 10002, 20000, 175},
+                                         RealCounts{"horse_gallop", 8431, 16843, 48},
+                                         RealCounts{"walker", 13380, 26756, 120},
+                                         RealCounts{"cloth", 10000, 19602, 200}, RealCounts{"flag", 6144, 11970, 150},
+                                         RealCounts{"snake", 9179, 18354, 134}, RealCounts{"dolphin", 4012, 8000, 101},
+                                         RealCounts{"bone", 754, 1504, 400}),
                          [](const auto& made) { return made.param.name; });
 
 TEST(RealFile, TheQuakeModelsAreReadWithTheirCounts)

@@ -11,7 +11,7 @@ using namespace meshreel::linalg;
 namespace {
 
 /// F frames of N vertices made of `rank` shapes.
-Matrix<float> frames_of_rank(std::size_t F, std::size_t N, std::size_t rank)
+Matrix<float> shapes_of_rank(std::size_t F, std::size_t N, std::size_t rank)
 {
     Matrix<float> frames(F, 3 * N);
     for (std::size_t f = 0; f < F; ++f)
@@ -45,7 +45,7 @@ double rebuilt_error(const Matrix<float>& frames, const ShapeModes& shapes)
 
 TEST(PcaOfShapes, FindsTheRankAndGivesTheFramesBack)
 {
-    const Matrix<float> frames = frames_of_rank(40, 700, 3);
+    const Matrix<float> frames = shapes_of_rank(40, 700, 3);
     const ShapeModes shapes = pca_of_shapes(frames.view(), {0, 1e-5, {}, {}});
     EXPECT_EQ(shapes.modes.rows, 3u);
     EXPECT_LT(rebuilt_error(frames, shapes), 1.1e-5);
@@ -54,7 +54,7 @@ TEST(PcaOfShapes, FindsTheRankAndGivesTheFramesBack)
 
 TEST(PcaOfShapes, TakesAsFewModesAsTheToleranceAllows)
 {
-    const Matrix<float> frames = frames_of_rank(60, 200, 20);
+    const Matrix<float> frames = shapes_of_rank(60, 200, 20);
     const ShapeModes shapes = pca_of_shapes(frames.view(), {0, 0.05, {}, {}});
     EXPECT_LE(shapes.largest_error, 0.05 + 1e-6);
     const ShapeModes fewer = pca_of_shapes(frames.view(), {shapes.modes.rows - 1, 0, {}, {}});
@@ -63,7 +63,7 @@ TEST(PcaOfShapes, TakesAsFewModesAsTheToleranceAllows)
 
 TEST(PcaOfShapes, EachModesWeightsReachFromZeroToOne)
 {
-    const ShapeModes shapes = pca_of_shapes(frames_of_rank(30, 50, 4).view(), {4, 0, {}, {}});
+    const ShapeModes shapes = pca_of_shapes(shapes_of_rank(30, 50, 4).view(), {4, 0, {}, {}});
     for (std::size_t k = 0; k < shapes.weights.cols; ++k) {
         float low = 9, high = -9;
         for (std::size_t f = 0; f < 30; ++f) {
@@ -77,14 +77,14 @@ TEST(PcaOfShapes, EachModesWeightsReachFromZeroToOne)
 
 TEST(PcaOfShapes, WithoutMotionThereIsNoMode)
 {
-    const ShapeModes shapes = pca_of_shapes(frames_of_rank(5, 10, 0).view(), {0, 0, {}, {}});
+    const ShapeModes shapes = pca_of_shapes(shapes_of_rank(5, 10, 0).view(), {0, 0, {}, {}});
     EXPECT_EQ(shapes.modes.rows, 0u);
     EXPECT_EQ(shapes.largest_error, 0.0);
 }
 
 TEST(PcaOfShapes, IsTheSameForAnyNumberOfThreads)
 {
-    const Matrix<float> frames = frames_of_rank(150, 1500, 9);
+    const Matrix<float> frames = shapes_of_rank(150, 1500, 9);
     const ShapeModes one = pca_of_shapes(frames.view(), {0, 1e-4, {1}, {}}),
                      three = pca_of_shapes(frames.view(), {0, 1e-4, {3}, {}});
     EXPECT_EQ(one.modes.values, three.modes.values);

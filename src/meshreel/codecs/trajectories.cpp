@@ -8,7 +8,7 @@ namespace meshreel::codecs {
 
 namespace {
 
-constexpr std::size_t block = 128; // vertices
+constexpr std::size_t pose_block = 128; // vertices
 
 // Wider registers change nothing in the result: each vertex sums its own products in the order of k, without fusing.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
@@ -18,28 +18,28 @@ constexpr std::size_t block = 128; // vertices
 #endif
 
 /// sums[v] = m + sum_k b[k * stride] * Ct[k][v] for one row of the trajectories of a block.
-struct Row {
+struct PosedRow {
     double mean;
     MatrixView<const double> B; ///< [K x 3F], K may be 0
     std::size_t row;
 };
 
-MESHREEL_WIDE void add_up(const Row& row, const double* __restrict Ct, double* __restrict sums)
+MESHREEL_WIDE void add_up(const PosedRow& row, const double* __restrict Ct, double* __restrict sums)
 {
-    for (std::size_t v = 0; v < block; ++v) sums[v] = row.mean;
+    for (std::size_t v = 0; v < pose_block; ++v) sums[v] = row.mean;
     for (std::size_t k = 0; k < row.B.rows; ++k) {
         const double b = row.B(k, row.row);
-        const double* __restrict c = Ct + k * block;
-        for (std::size_t v = 0; v < block; ++v) sums[v] += b * c[v]; // (8.2)
+        const double* __restrict c = Ct + k * pose_block;
+        for (std::size_t v = 0; v < pose_block; ++v) sums[v] += b * c[v]; // (8.2)
     }
 }
 
-/// Ct [K x block]: coefficients of vertices first .. first + count - 1, component by component; the rest zero.
+/// Ct [K x pose_block]: coefficients of vertices first .. first + count - 1, component by component; the rest zero.
 std::vector<double> transposed(MatrixView<const double> C, std::size_t first, std::size_t count)
 {
-    std::vector<double> Ct(C.cols * block, 0.0);
+    std::vector<double> Ct(C.cols * pose_block, 0.0);
     for (std::size_t v = 0; v < count; ++v)
-        for (std::size_t k = 0; k < C.cols; ++k) Ct[k * block + v] = C(first + v, k);
+        for (std::size_t k = 0; k < C.cols; ++k) Ct[k * pose_block + v] = C(first + v, k);
     return Ct;
 }
 
@@ -47,12 +47,13 @@ std::vector<double> transposed(MatrixView<const double> C, std::size_t first, st
 
 void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads threads)
 {
-    const auto& [basis, C] = trajectories;
+    const Basis& basis = trajectories.basis;
+    const Matrix<double>& C = trajectories.C;
     const std::size_t W = frames.cols / 3, F = frames.rows;
-    parallel_for((W + block - 1) / block, threads, [&](std::size_t task) {
-        const std::size_t first = task * block, count = std::min(block, W - first);
+    parallel_for((W + pose_block - 1) / pose_block, threads, [&](std::size_t task) {
+        const std::size_t first = task * pose_block, count = std::min(pose_block, W - first);
         const std::vector<double> Ct = transposed(C.view(), first, count);
-        double sums[block];
+        double sums[pose_block];
         for (std::size_t f = 0; f < F; ++f)
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::size_t row = c * F + f;
@@ -64,3 +65,5 @@ void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads
 }
 
 } // namespace meshreel::codecs
+
+#undef MESHREEL_WIDE

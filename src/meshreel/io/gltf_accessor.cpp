@@ -11,7 +11,7 @@ namespace meshreel::io {
 
 namespace {
 
-Result<Scalar> component_type(const Json& field)
+Result<Scalar> component_type_of(const Json& field)
 {
     MESHREEL_TRY(const std::uint64_t number, field.integer(1u << 16));
     switch (number) {
@@ -83,7 +83,7 @@ Status read_sparse(const GltfDocument& document, Accessor& found)
     if (!sparse) return Ok{};
     MESHREEL_TRY(found.sparse_count, sparse.member("count").integer(found.count + 1));
     const Json indices = sparse.member("indices"), values = sparse.member("values");
-    MESHREEL_TRY(found.sparse_type, component_type(indices.member("componentType")));
+    MESHREEL_TRY(found.sparse_type, component_type_of(indices.member("componentType")));
     if (found.sparse_type != Scalar::u8 && found.sparse_type != Scalar::u16 && found.sparse_type != Scalar::u32)
         return indices.member("componentType").wrong("is no unsigned type");
     const std::size_t size = scalar_size(found.sparse_type), value_size = found.element_size();
@@ -127,7 +127,7 @@ float float_at(const std::uint8_t* bytes, Scalar type)
 }
 
 /// What a normalised integer is divided by.
-double full_scale(Scalar type)
+double largest_integer(Scalar type)
 {
     switch (type) {
     case Scalar::u8:
@@ -167,7 +167,7 @@ Result<Accessor> accessor(const GltfDocument& document, const Json& user)
     Accessor found;
     found.budget = document.budget.get();
     found.where = document.item("accessors", number);
-    MESHREEL_TRY(found.type, component_type(found.where.member("componentType")));
+    MESHREEL_TRY(found.type, component_type_of(found.where.member("componentType")));
     MESHREEL_TRY(found.components, component_count(found.where.member("type")));
     MESHREEL_TRY(found.normalized, found.where.member("normalized").truth_or(false));
     MESHREEL_TRY(found.count,
@@ -208,11 +208,11 @@ Result<Numbers> numbers(const Accessor& accessor, std::uint8_t components)
     const std::size_t size = scalar_size(accessor.type);
     Numbers result;
     result.components = accessor.components;
-    result.unit = accessor.normalized ? 1.0 / full_scale(accessor.type) : 1.0;
+    result.unit = accessor.normalized ? 1.0 / largest_integer(accessor.type) : 1.0;
     MESHREEL_CHECK(accessor.budget->take(packed.size() / size * sizeof(float), accessor.where));
     accessor.budget->left += packed.size(); // it goes when we return
     result.values.resize(packed.size() / size);
-    const float lowest = accessor.normalized ? static_cast<float>(-full_scale(accessor.type)) : -INFINITY;
+    const float lowest = accessor.normalized ? static_cast<float>(-largest_integer(accessor.type)) : -INFINITY;
     for (std::size_t i = 0; i < result.values.size(); ++i) {
         const float value = float_at(&packed[i * size], accessor.type);
         if (!std::isfinite(value))

@@ -15,34 +15,34 @@ namespace meshreel::io {
 namespace {
 
 /// An attribute as it grows, and the vertices that have it.
-struct Column {
+struct GltfColumn {
     Attribute attribute;
     std::vector<std::array<std::uint32_t, 2>> runs; ///< first vertex, count
     std::uint64_t covered = 0;
 };
 
-using Columns = std::vector<Column>;
+using GltfColumns = std::vector<GltfColumn>;
 
-Column& column_for(Columns& columns, const std::string& name, const Accessor& values)
+GltfColumn& column_for(GltfColumns& columns, const std::string& name, const Accessor& values)
 {
-    const auto fits = [&](const Column& column) {
+    const auto fits = [&](const GltfColumn& column) {
         const Attribute& a = column.attribute;
         return a.type == values.type && a.components == values.components && a.normalized == values.normalized;
     };
     bool taken = false;
-    for (Column& column : columns) {
+    for (GltfColumn& column : columns) {
         if (column.attribute.name.substr(0, column.attribute.name.find('|')) != name) continue;
         if (fits(column)) return column;
         taken = true;
     }
-    Column fresh;
+    GltfColumn fresh;
     fresh.attribute = {name, Domain::vertex, values.type, values.components, values.normalized, {}, {}};
     if (taken) fresh.attribute.name = variant_name(fresh.attribute);
     columns.push_back(std::move(fresh));
     return columns.back();
 }
 
-Status gather(const GltfSource& source, const GltfVertices& vertices, std::uint32_t first, Columns& columns)
+Status gather(const GltfSource& source, const GltfVertices& vertices, std::uint32_t first, GltfColumns& columns)
 {
     const Json attributes = vertices.primitive.member("attributes");
     for (const auto& item : attributes.value->items()) {
@@ -60,7 +60,7 @@ Status gather(const GltfSource& source, const GltfVertices& vertices, std::uint3
             return attributes.member(semantic.c_str())
                 .wrong(concat(found.count, " values for ", vertices.count, " vertices"));
         MESHREEL_TRY(const Bytes packed, packed_values(found));
-        Column& column = column_for(columns, *name, found);
+        GltfColumn& column = column_for(columns, *name, found);
         column.attribute.values.insert(column.attribute.values.end(), packed.begin(), packed.end());
         column.runs.push_back({first, vertices.count});
         column.covered += vertices.count;
@@ -69,7 +69,7 @@ Status gather(const GltfSource& source, const GltfVertices& vertices, std::uint3
 }
 
 /// Vertices that no run covers have no value.
-Status finish(const GltfDocument& document, Column&& column, Animation& animation)
+Status finish(const GltfDocument& document, GltfColumn&& column, Animation& animation)
 {
     if (column.covered < animation.vertex_count) {
         MESHREEL_CHECK(document.budget->take(animation.vertex_count * 4ull, document.json().member("meshes")));
@@ -114,7 +114,7 @@ Status Gatherer::add(std::size_t p, bool mirrored)
     return Ok{};
 }
 
-Status read_triangles(const GltfSource& source, Animation& animation)
+Status read_all_triangles(const GltfSource& source, Animation& animation)
 {
     const GltfPose rest = pose_at(source.scene, nullptr, 0);
     Gatherer gatherer{source, animation, {}, {}, {}};
@@ -137,11 +137,11 @@ Status read_triangles(const GltfSource& source, Animation& animation)
 
 Status read_gltf_appearance(const GltfSource& source, Animation& animation)
 {
-    Columns columns;
+    GltfColumns columns;
     for (const GltfPart& part : source.body.parts)
         MESHREEL_CHECK(gather(source, source.body.meshes[part.mesh].vertices[part.set], part.first, columns));
-    for (Column& column : columns) MESHREEL_CHECK(finish(source.document, std::move(column), animation));
-    MESHREEL_CHECK(read_triangles(source, animation));
+    for (GltfColumn& column : columns) MESHREEL_CHECK(finish(source.document, std::move(column), animation));
+    MESHREEL_CHECK(read_all_triangles(source, animation));
     const Json materials = source.document.json().member("materials");
     for (std::size_t m = 0; m < materials.size(); ++m) {
         MESHREEL_TRY(std::string name, materials.element(m).member("name").text_or(concat("material_", m)));

@@ -15,11 +15,6 @@ bool all_digits(std::string_view text)
     return !text.empty();
 }
 
-bool starts_with(const std::string& text, std::string_view start)
-{
-    return text.compare(0, start.size(), start) == 0;
-}
-
 std::string escaped(const std::string& name)
 {
     constexpr std::string_view digits = "0123456789ABCDEF";
@@ -71,20 +66,20 @@ std::optional<std::string> attribute_name(const std::string& semantic)
 {
     if (semantic == "NORMAL") return "normal";
     if (semantic == "TANGENT") return "tangent";
-    if (starts_with(semantic, "TEXCOORD_") && all_digits(semantic.substr(9))) return "uv" + semantic.substr(9);
-    if (starts_with(semantic, "COLOR_") && all_digits(semantic.substr(6))) return "color" + semantic.substr(6);
-    if (starts_with(semantic, "_")) return semantic;
+    if (semantic.starts_with("TEXCOORD_") && all_digits(semantic.substr(9))) return "uv" + semantic.substr(9);
+    if (semantic.starts_with("COLOR_") && all_digits(semantic.substr(6))) return "color" + semantic.substr(6);
+    if (semantic.starts_with("_")) return semantic;
     return std::nullopt;
 }
 
 std::optional<std::string> attribute_semantic(const std::string& name)
 {
-    const std::string plain = starts_with(name, "_") ? name : name.substr(0, name.find('|'));
+    const std::string plain = name.starts_with("_") ? name : name.substr(0, name.find('|'));
     if (plain == "normal") return "NORMAL";
     if (plain == "tangent") return "TANGENT";
-    if (starts_with(plain, "uv") && all_digits(plain.substr(2))) return "TEXCOORD_" + plain.substr(2);
-    if (starts_with(plain, "color") && all_digits(plain.substr(5))) return "COLOR_" + plain.substr(5);
-    if (starts_with(plain, "_")) return plain.substr(0, plain.find('|'));
+    if (plain.starts_with("uv") && all_digits(plain.substr(2))) return "TEXCOORD_" + plain.substr(2);
+    if (plain.starts_with("color") && all_digits(plain.substr(5))) return "COLOR_" + plain.substr(5);
+    if (plain.starts_with("_")) return plain.substr(0, plain.find('|'));
     return std::nullopt;
 }
 

@@ -14,18 +14,13 @@ namespace meshreel::io {
 
 namespace {
 
-bool starts_with(const std::string& text, std::string_view start)
-{
-    return text.compare(0, start.size(), start) == 0;
-}
-
-int component_type(Scalar type)
+int component_code(Scalar type)
 {
     constexpr int codes[] = {5126, 5121, 5123, 5125, 5120, 5122};
     return codes[static_cast<std::size_t>(type)];
 }
 
-const char* type_name(std::size_t components)
+const char* accessor_type(std::size_t components)
 {
     constexpr const char* names[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     return components <= 4 ? names[components] : components == 9 ? "MAT3" : components == 16 ? "MAT4" : "";
@@ -37,19 +32,20 @@ bool allowed(const std::string& semantic, const Attribute& a)
     if (semantic == "NORMAL" || semantic == "TANGENT")
         return a.type == Scalar::f32 && a.components == (semantic == "NORMAL" ? 3 : 4);
     if (semantic[0] == '_')
-        return a.type != Scalar::u32 && *type_name(a.components) != 0 && (a.components <= 4 || a.type == Scalar::f32);
+        return a.type != Scalar::u32 && *accessor_type(a.components) != 0 &&
+               (a.components <= 4 || a.type == Scalar::f32);
     const bool number = a.type == Scalar::f32 || (a.normalized && (a.type == Scalar::u8 || a.type == Scalar::u16));
-    return number && (starts_with(semantic, "TEXCOORD_") ? a.components == 2 : a.components == 3 || a.components == 4);
+    return number && (semantic.starts_with("TEXCOORD_") ? a.components == 2 : a.components == 3 || a.components == 4);
 }
 
 /// Components as floats that glTF wants instead; 0: cannot be had.
 std::size_t as_floats(const std::string& semantic, const Attribute& a)
 {
     if (semantic[0] == '_' || !(a.type == Scalar::f32 || a.normalized)) return 0;
-    const std::size_t wanted = semantic == "NORMAL"                 ? 3
-                               : semantic == "TANGENT"              ? 4
-                               : starts_with(semantic, "TEXCOORD_") ? 2
-                                                                    : 3;
+    const std::size_t wanted = semantic == "NORMAL"                ? 3
+                               : semantic == "TANGENT"             ? 4
+                               : semantic.starts_with("TEXCOORD_") ? 2
+                                                                   : 3;
     return a.components >= wanted ? wanted : 0;
 }
 
@@ -78,9 +74,9 @@ std::size_t add_raw(GltfBuilder& builder, const Attribute& attribute, std::span<
             std::copy_n(&attribute.values[places[i] * size], size, &builder.binary[begin + i * stride]);
     builder.close_view();
     nlohmann::json accessor = {{"bufferView", builder.view()},
-                               {"componentType", component_type(attribute.type)},
+                               {"componentType", component_code(attribute.type)},
                                {"count", places.size()},
-                               {"type", type_name(attribute.components)}};
+                               {"type", accessor_type(attribute.components)}};
     if (attribute.normalized) accessor["normalized"] = true;
     return builder.add("accessors", std::move(accessor));
 }
@@ -106,13 +102,13 @@ bool make_unit(std::vector<float>& values, std::size_t components)
 }
 
 /// An attribute on its way into a vertex set.
-struct Column {
+struct OutColumn {
     const Attribute& attribute;
     std::string semantic;
     std::vector<std::uint32_t> places; ///< of each vertex's value
 };
 
-std::size_t add_converted(GltfBuilder& builder, const Column& column, std::size_t components,
+std::size_t add_converted(GltfBuilder& builder, const OutColumn& column, std::size_t components,
                           const SaveOptions& options)
 {
     std::vector<float> values;
@@ -124,13 +120,13 @@ std::size_t add_converted(GltfBuilder& builder, const Column& column, std::size_
         tell(options, concat("some values of the attribute ", column.attribute.name,
                              " were not of length 1 and are scaled to it"));
     builder.open_view(components * 4);
-    const std::size_t accessor = builder.add_floats(values, type_name(components), false);
+    const std::size_t accessor = builder.add_floats(values, accessor_type(components), false);
     builder.close_view();
     return accessor;
 }
 
 /// The accessor of one attribute, or nothing where glTF cannot hold it.
-std::optional<std::size_t> add_attribute(GltfBuilder& builder, const Column& column, const SaveOptions& options)
+std::optional<std::size_t> add_attribute(GltfBuilder& builder, const OutColumn& column, const SaveOptions& options)
 {
     const bool unit = column.semantic == "NORMAL" || column.semantic == "TANGENT";
     if (allowed(column.semantic, column.attribute) && !unit) return add_raw(builder, column.attribute, column.places);
@@ -148,7 +144,7 @@ void drop_gaps(nlohmann::json& attributes, const SaveOptions& options)
         while (attributes.contains(concat(start, count))) ++count;
         std::vector<std::string> beyond;
         for (const auto& item : attributes.items()) {
-            if (!starts_with(item.key(), start)) continue;
+            if (!item.key().starts_with(start)) continue;
             bool kept = false;
             for (std::size_t n = 0; n < count; ++n) kept = kept || item.key() == concat(start, n);
             if (!kept) beyond.push_back(item.key());
@@ -169,7 +165,7 @@ nlohmann::json add_attributes(GltfBuilder& builder, const Animation& animation, 
     for (const Attribute& attribute : animation.appearance.attributes) {
         const std::optional<std::string> semantic = attribute_semantic(attribute.name);
         if (!semantic || attribute.domain == Domain::triangle || attributes.contains(*semantic)) continue;
-        const Column column{attribute, *semantic, value_places(animation, attribute, set)};
+        const OutColumn column{attribute, *semantic, value_places(animation, attribute, set)};
         const std::vector<std::uint32_t>& places = column.places;
         std::size_t missing = 0, present = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {

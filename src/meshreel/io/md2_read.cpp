@@ -14,7 +14,7 @@ namespace meshreel::io {
 
 namespace {
 
-constexpr std::size_t skin_size = 64, st_size = 4, triangle_size = 12, vertex_size = 4;
+constexpr std::size_t skin_size = 64, md2_st_size = 4, md2_triangle_size = 12, md2_vertex_size = 4;
 constexpr std::size_t frame_header_size = 40; ///< scale[3], translate[3] as float32, name[16]
 
 /// The header's numbers in the order of the file.
@@ -69,7 +69,7 @@ Status Md2Reader::read_header()
     }
     if (header_.vertices == 0 || header_.frames == 0)
         return bad_input("there is no vertex or no frame", "vertex_count", at_byte(24));
-    const std::uint64_t smallest = frame_header_size + vertex_size * static_cast<std::uint64_t>(header_.vertices);
+    const std::uint64_t smallest = frame_header_size + md2_vertex_size * static_cast<std::uint64_t>(header_.vertices);
     if (static_cast<std::uint64_t>(header_.frame_size) < smallest)
         return bad_input(
             concat("a frame of ", header_.frame_size, " bytes, but ", header_.vertices, " vertices need ", smallest),
@@ -114,12 +114,12 @@ Result<Md2Clip> Md2Reader::choose_clip(ByteView frames) const
 
 Status Md2Reader::read_triangles()
 {
-    MESHREEL_TRY(const ByteView rows, table(header_.triangles_at, header_.triangles, triangle_size, "triangles"));
+    MESHREEL_TRY(const ByteView rows, table(header_.triangles_at, header_.triangles, md2_triangle_size, "triangles"));
     const auto at = static_cast<std::size_t>(header_.triangles_at);
     animation_.triangles.resize(static_cast<std::size_t>(header_.triangles));
     st_of_.resize(animation_.triangles.size() * 3);
     for (std::size_t corner = 0; corner < st_of_.size(); ++corner) {
-        const std::size_t vertex_at = corner / 3 * triangle_size + corner % 3 * 2, st_at = vertex_at + 6;
+        const std::size_t vertex_at = corner / 3 * md2_triangle_size + corner % 3 * 2, st_at = vertex_at + 6;
         const auto vertex = number_at<std::uint16_t>(rows.data() + vertex_at, ByteOrder::little);
         const auto st = number_at<std::uint16_t>(rows.data() + st_at, ByteOrder::little);
         if (vertex >= header_.vertices)
@@ -144,7 +144,7 @@ Status Md2Reader::read_frames(ByteView frames, const Md2Clip& clip, const Select
         copy_floats({frame, 24}, ByteOrder::little, place);
         float* positions = animation_.positions.data() + i * animation_.vertex_count * 3;
         const std::uint8_t* vertex = frame + frame_header_size;
-        for (std::size_t v = 0; v < animation_.vertex_count; ++v, vertex += vertex_size)
+        for (std::size_t v = 0; v < animation_.vertex_count; ++v, vertex += md2_vertex_size)
             for (std::size_t axis = 0; axis < 3; ++axis)
                 positions[v * 3 + axis] = static_cast<float>(vertex[axis]) * place[axis] + place[3 + axis];
         MESHREEL_CHECK(check_finite({positions, animation_.vertex_count * 3ul}, clip.first + chosen[i]));
@@ -154,7 +154,7 @@ Status Md2Reader::read_frames(ByteView frames, const Md2Clip& clip, const Select
 
 Status Md2Reader::carry()
 {
-    MESHREEL_TRY(const ByteView sts, table(header_.sts_at, header_.sts, st_size, "texture coordinates"));
+    MESHREEL_TRY(const ByteView sts, table(header_.sts_at, header_.sts, md2_st_size, "texture coordinates"));
     MESHREEL_TRY(const ByteView skins, table(header_.skins_at, header_.skins, skin_size, "skins"));
     Appearance& appearance = animation_.appearance;
     const float size[2] = {static_cast<float>(std::max(header_.skin_width, 1)),

@@ -13,7 +13,7 @@ namespace meshreel::io {
 
 namespace {
 
-constexpr std::size_t name_size = 64, shader_size = 68, triangle_size = 12, st_size = 8, vertex_size = 8;
+constexpr std::size_t name_size = 64, shader_size = 68, md3_triangle_size = 12, md3_st_size = 8, md3_vertex_size = 8;
 constexpr std::size_t frame_size = 56, tag_size = 112;
 constexpr float unit = 1.0f / 64.0f; ///< of a coordinate; exact in float32
 
@@ -129,9 +129,9 @@ Result<std::uint64_t> Md3Reader::read_surface(std::uint64_t begin)
                          "frame_count", at_byte(begin + 72));
     if (at[4] <= begin) return bad_input("the surface ends where it begins", "surface offset", at_byte(begin + 104));
     surface.triangles_at = at[0];
-    MESHREEL_TRY(surface.triangles, table(at[0], triangles * triangle_size, "triangles"));
-    MESHREEL_TRY(surface.sts, table(at[2], vertices * st_size, "texture coordinates"));
-    MESHREEL_TRY(surface.positions, table(at[3], frames * vertices * vertex_size, "positions"));
+    MESHREEL_TRY(surface.triangles, table(at[0], triangles * md3_triangle_size, "triangles"));
+    MESHREEL_TRY(surface.sts, table(at[2], vertices * md3_st_size, "texture coordinates"));
+    MESHREEL_TRY(surface.positions, table(at[3], frames * vertices * md3_vertex_size, "positions"));
     if (shaders > 0) {
         MESHREEL_TRY(const ByteView rows, table(at[1], shaders * shader_size, "shaders"));
         MESHREEL_TRY(surface.shader, BinaryReader(rows, ByteOrder::little).name(name_size, "shaders"));
@@ -149,7 +149,7 @@ Status Md3Reader::add_triangles()
     std::uint32_t base = 0;
     animation_.triangles.reserve(triangles_);
     for (const Surface& surface : surfaces_) {
-        for (std::size_t at = 0; at < surface.triangles.size(); at += triangle_size) {
+        for (std::size_t at = 0; at < surface.triangles.size(); at += md3_triangle_size) {
             Triangle triangle{};
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto vertex = number_at<std::uint32_t>(surface.triangles.data() + at + 4 * c, ByteOrder::little);
@@ -171,8 +171,8 @@ void Md3Reader::add_frames(const Selection& chosen)
     animation_.positions.reserve(chosen.count * vertices_ * 3);
     for (std::uint64_t i = 0; i < chosen.count; ++i)
         for (const Surface& surface : surfaces_) {
-            const std::uint8_t* vertex = surface.positions.data() + chosen[i] * surface.vertices * vertex_size;
-            for (std::uint32_t v = 0; v < surface.vertices; ++v, vertex += vertex_size)
+            const std::uint8_t* vertex = surface.positions.data() + chosen[i] * surface.vertices * md3_vertex_size;
+            for (std::uint32_t v = 0; v < surface.vertices; ++v, vertex += md3_vertex_size)
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     animation_.positions.push_back(
                         static_cast<float>(number_at<std::int16_t>(vertex + 2 * axis, ByteOrder::little)) * unit);
@@ -192,7 +192,7 @@ void Md3Reader::carry()
             appearance.materials.push_back(surface.shader);
             known = appearance.materials.end() - 1;
         }
-        const std::size_t count = surface.triangles.size() / triangle_size;
+        const std::size_t count = surface.triangles.size() / md3_triangle_size;
         const bool has_shader = !surface.shader.empty();
         materials.insert(materials.end(), count,
                          has_shader ? static_cast<std::uint32_t>(known - appearance.materials.begin()) : no_value);

@@ -17,7 +17,7 @@ namespace meshreel::io {
 namespace {
 
 /// An attribute as scalar properties of a row.
-struct Columns {
+struct PlyValues {
     const Attribute* attribute;
     std::vector<std::string> names;   ///< one a component
     std::vector<std::uint32_t> value; ///< of each row, a place in the table or no_value
@@ -41,9 +41,9 @@ std::vector<std::string> property_names(const Attribute& attribute)
 }
 
 /// Two properties of one name would not be read back.
-void make_unique(std::vector<Columns>& all, std::set<std::string> taken)
+void make_unique(std::vector<PlyValues>& all, std::set<std::string> taken)
 {
-    for (Columns& columns : all)
+    for (PlyValues& columns : all)
         for (std::string& name : columns.names)
             while (!taken.insert(name).second) name += '_';
 }
@@ -77,14 +77,14 @@ private:
     void float_number(float value);
     void count(std::uint8_t value);
     void index(std::uint32_t value);
-    void values(const Columns& columns, std::size_t row);
+    void values(const PlyValues& columns, std::size_t row);
     void end_row();
     void comments(std::string_view what, const std::vector<std::string>& names);
 
     const Animation& animation_;
     std::size_t frame_;
     bool binary_;
-    std::vector<Columns> of_vertices_, of_faces_;
+    std::vector<PlyValues> of_vertices_, of_faces_;
     const Attribute* corner_uvs_ = nullptr;
     std::vector<const Attribute*> seamed_, incomplete_;
     TextWriter text_;
@@ -114,7 +114,7 @@ void PlyWriter::choose()
     make_unique(of_vertices_, {"x", "y", "z"});
     make_unique(of_faces_, {"vertex_indices", "vertex_index", "texcoord"});
     for (const auto* table : {&of_vertices_, &of_faces_})
-        for (const Columns& columns : *table)
+        for (const PlyValues& columns : *table)
             if (!has_none(*columns.attribute) && std::ranges::find(columns.value, no_value) != columns.value.end())
                 incomplete_.push_back(columns.attribute);
 }
@@ -139,8 +139,8 @@ void PlyWriter::header()
     text_.text("ply\nformat ").text(binary_ ? "binary_little_endian" : "ascii").text(" 1.0\n");
     comments("material", animation_.appearance.materials);
     comments("group", animation_.appearance.groups);
-    const auto properties = [&](const std::vector<Columns>& all) {
-        for (const Columns& columns : all)
+    const auto properties = [&](const std::vector<PlyValues>& all) {
+        for (const PlyValues& columns : all)
             for (const std::string& name : columns.names)
                 text_.text("property ").text(type_name(columns.attribute->type)).text(" ").text(name).text("\n");
     };
@@ -179,7 +179,7 @@ void PlyWriter::index(std::uint32_t value)
 }
 
 /// The numbers of one row; zeros where it has none.
-void PlyWriter::values(const Columns& columns, std::size_t row)
+void PlyWriter::values(const PlyValues& columns, std::size_t row)
 {
     const Attribute& attribute = *columns.attribute;
     const std::size_t size = scalar_size(attribute.type), value = columns.value[row];
@@ -208,7 +208,7 @@ void PlyWriter::rows()
     const std::span<const float> positions = animation_.frame(frame_);
     for (std::size_t v = 0; v < animation_.vertex_count; ++v) {
         for (std::size_t axis = 0; axis < 3; ++axis) float_number(positions[v * 3 + axis]);
-        for (const Columns& columns : of_vertices_) values(columns, v);
+        for (const PlyValues& columns : of_vertices_) values(columns, v);
         end_row();
     }
     for (std::size_t t = 0; t < animation_.triangles.size(); ++t) {
@@ -220,7 +220,7 @@ void PlyWriter::rows()
         if (corner_uvs_) count(complete ? 6 : 0);
         for (std::size_t i = 0; i < 6 && complete; ++i)
             float_number(attribute_float(*corner_uvs_, corner_value(*corner_uvs_, animation_, t * 3 + i / 2), i % 2));
-        for (const Columns& columns : of_faces_) values(columns, t);
+        for (const PlyValues& columns : of_faces_) values(columns, t);
         end_row();
     }
 }

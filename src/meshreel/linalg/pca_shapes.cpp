@@ -14,19 +14,19 @@ namespace {
 using Eigen::Index;
 using Dense = Eigen::MatrixXd;
 
-constexpr std::size_t block = 3 * 512; // coordinates converted to double at a time
-constexpr std::size_t tile = 128;      // rows of the Gram matrix that one task computes
+constexpr std::size_t coordinate_block = 3 * 512; // coordinates converted to double at a time
+constexpr std::size_t shape_tile = 128;           // rows of the Gram matrix that one task computes
 
 std::size_t block_count(std::size_t n)
 {
-    return (n + block - 1) / block;
+    return (n + coordinate_block - 1) / coordinate_block;
 }
 
 std::vector<float> mean_shape(MatrixView<const float> frames, Threads threads)
 {
     std::vector<float> mean(frames.cols);
     parallel_for(block_count(frames.cols), threads, [&](std::size_t b) {
-        for (std::size_t i = b * block; i < std::min(frames.cols, (b + 1) * block); ++i) {
+        for (std::size_t i = b * coordinate_block; i < std::min(frames.cols, (b + 1) * coordinate_block); ++i) {
             double sum = 0;
             for (std::size_t f = 0; f < frames.rows; ++f) sum += static_cast<double>(frames(f, i));
             mean[i] = static_cast<float>(sum / static_cast<double>(frames.rows));
@@ -39,7 +39,7 @@ std::vector<float> mean_shape(MatrixView<const float> frames, Threads threads)
 Dense centred(MatrixView<const float> frames, std::span<const float> mean, std::size_t b,
               std::array<std::size_t, 2> rows)
 {
-    const std::size_t first = b * block, count = std::min(block, frames.cols - first);
+    const std::size_t first = b * coordinate_block, count = std::min(coordinate_block, frames.cols - first);
     Dense X(static_cast<Index>(rows[1]), static_cast<Index>(count));
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t f = 0; f < rows[1]; ++f)
@@ -51,12 +51,12 @@ Dense centred(MatrixView<const float> frames, std::span<const float> mean, std::
 /// X X^T, lower tiles, one task a tile: the order of summation is that of the blocks.
 Dense gram(MatrixView<const float> frames, std::span<const float> mean, Threads threads)
 {
-    const std::size_t F = frames.rows, tiles = (F + tile - 1) / tile;
+    const std::size_t F = frames.rows, tiles = (F + shape_tile - 1) / shape_tile;
     Dense G = Dense::Zero(static_cast<Index>(F), static_cast<Index>(F));
     parallel_for(tiles * tiles, threads, [&](std::size_t task) {
-        const std::size_t i = task / tiles * tile, j = task % tiles * tile;
+        const std::size_t i = task / tiles * shape_tile, j = task % tiles * shape_tile;
         if (j > i) return;
-        const std::size_t rows = std::min(tile, F - i), cols = std::min(tile, F - j);
+        const std::size_t rows = std::min(shape_tile, F - i), cols = std::min(shape_tile, F - j);
         auto part =
             G.block(static_cast<Index>(i), static_cast<Index>(j), static_cast<Index>(rows), static_cast<Index>(cols));
         for (std::size_t b = 0; b < block_count(frames.cols); ++b)
@@ -85,7 +85,7 @@ void project(MatrixView<const float> frames, const Dense& U, ShapeModes& result,
         const Dense M = scaled.transpose() * centred(frames, result.base, b, {0, frames.rows});
         for (Index k = 0; k < M.rows(); ++k)
             for (Index i = 0; i < M.cols(); ++i)
-                result.modes(static_cast<std::size_t>(k), b * block + static_cast<std::size_t>(i)) =
+                result.modes(static_cast<std::size_t>(k), b * coordinate_block + static_cast<std::size_t>(i)) =
                     static_cast<float>(M(k, i));
     });
 }
@@ -100,7 +100,8 @@ double block_error(MatrixView<const float> frames, const ShapeModes& result, std
     const Eigen::Map<const Floats> M(result.modes.values.data(), static_cast<Index>(result.modes.rows),
                                      static_cast<Index>(frames.cols));
     const Dense weights = W.leftCols(static_cast<Index>(K)).cast<double>();
-    const Dense modes = M.block(0, static_cast<Index>(b * block), static_cast<Index>(K), count).cast<double>();
+    const Dense modes =
+        M.block(0, static_cast<Index>(b * coordinate_block), static_cast<Index>(K), count).cast<double>();
     R.noalias() -= weights * modes;
     double largest = 0;
     for (Index v = 0; v + 2 < count; v += 3)
@@ -126,7 +127,7 @@ std::size_t enough(const Eigen::VectorXd& falling, double tolerance)
 }
 
 /// How many eigenvalues stand clear of rounding.
-std::size_t rank_of(const Eigen::VectorXd& falling)
+std::size_t shape_rank(const Eigen::VectorXd& falling)
 {
     std::size_t K = 0;
     while (K < static_cast<std::size_t>(falling.size()) && falling(static_cast<Index>(K)) > falling(0) * 1e-15) ++K;
@@ -176,7 +177,7 @@ void to_unit_range(ShapeModes& result, Threads threads)
             result.weights(f, k) = static_cast<float>((static_cast<double>(result.weights(f, k)) - low) / range[k]);
     }
     parallel_for(block_count(result.base.size()), threads, [&](std::size_t b) {
-        for (std::size_t i = b * block; i < std::min(result.base.size(), (b + 1) * block); ++i) {
+        for (std::size_t i = b * coordinate_block; i < std::min(result.base.size(), (b + 1) * coordinate_block); ++i) {
             double moved = result.base[i];
             for (std::size_t k = 0; k < result.modes.rows; ++k) {
                 moved += lowest[k] * static_cast<double>(result.modes(k, i));
@@ -198,7 +199,7 @@ ShapeModes pca_of_shapes(MatrixView<const float> frames, const ShapeOptions& opt
     const Eigen::VectorXd falling = solver.eigenvalues().reverse();
     Dense U = solver.eigenvectors().rowwise().reverse();
     const std::size_t most = options.modes > 0 ? options.modes : enough(falling, options.tolerance);
-    const std::size_t K = std::min(most, rank_of(falling));
+    const std::size_t K = std::min(most, shape_rank(falling));
     U.conservativeResize(Eigen::NoChange, static_cast<Index>(K));
     scale_to_one(U);
     result.weights = Matrix<float>(frames.rows, K);

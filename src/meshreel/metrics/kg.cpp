@@ -36,7 +36,7 @@ FrameSums frame_sums(std::span<const T> original, std::span<const T> distorted)
 }
 
 template <class T>
-double measured(const Pair<T>& pair, Threads threads)
+double measured_kg(const Pair<T>& pair, Threads threads)
 {
     std::vector<FrameSums> frames(pair.frame_count());
     parallel_for(frames.size(), threads,
@@ -55,11 +55,11 @@ double measured(const Pair<T>& pair, Threads threads)
 
 double kg_error(const Pair<float>& pair, Threads threads)
 {
-    return measured(pair, threads);
+    return measured_kg(pair, threads);
 }
 double kg_error(const Pair<double>& pair, Threads threads)
 {
-    return measured(pair, threads);
+    return measured_kg(pair, threads);
 }
 
 } // namespace meshreel::metrics

@@ -14,7 +14,7 @@ namespace meshreel::metrics {
 
 namespace {
 
-constexpr std::size_t lanes = 8; ///< frames measured side by side
+constexpr std::size_t lanes = 8; ///< frames measured_sted side by side
 constexpr std::size_t vertices_a_block = 256;
 
 using Lanes = std::array<double, lanes>;
@@ -152,7 +152,7 @@ double measured_temporal(const Pair<T>& pair, const StedOptions& options)
 }
 
 template <class T>
-Sted measured(const Pair<T>& pair, const StedOptions& options)
+Sted measured_sted(const Pair<T>& pair, const StedOptions& options)
 {
     Sted parts{measured_spatial(pair, options), measured_temporal(pair, options), 0.0};
     const double temporal = options.temporal_weight * parts.temporal;
@@ -180,11 +180,11 @@ double sted_temporal(const Pair<double>& pair, const StedOptions& options)
 }
 Sted sted(const Pair<float>& pair, const StedOptions& options)
 {
-    return measured(pair, options);
+    return measured_sted(pair, options);
 }
 Sted sted(const Pair<double>& pair, const StedOptions& options)
 {
-    return measured(pair, options);
+    return measured_sted(pair, options);
 }
 
 double sted_error(const Animation& original, const Animation& distorted, Threads threads)

@@ -11,7 +11,7 @@ namespace meshreel::metrics {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// Sum and largest of one frame's squared distances.
 VertexError frame_error(std::span<const float> original, std::span<const float> distorted)
@@ -64,13 +64,13 @@ double max_error_relative(const Animation& original, const Animation& distorted,
 {
     const double error = max_error(original, distorted, threads), diagonal = body_diagonal(original);
     if (error == 0.0) return 0.0;
-    return diagonal > 0.0 ? 100.0 * error / diagonal : infinity;
+    return diagonal > 0.0 ? 100.0 * error / diagonal : unbounded;
 }
 
 double psnr(const Animation& original, const Animation& distorted, Threads threads)
 {
     const double mse = vertex_error(original, distorted, threads).mean_square, diagonal = body_diagonal(original);
-    if (mse == 0.0) return infinity;
+    if (mse == 0.0) return unbounded;
     return 10.0 * std::log10(diagonal * diagonal / mse);
 }
 

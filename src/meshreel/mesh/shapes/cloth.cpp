@@ -10,9 +10,9 @@ namespace meshreel::shapes {
 
 namespace {
 
-constexpr double width = 2.4;           ///< of the cloth, in units
-constexpr double bending = 25.0;        ///< compliance of the hinges / spacing^4, which makes a cloth of one stiffness
-constexpr double longest_step = 0.0025; ///< seconds
+constexpr double width = 2.4;         ///< of the cloth, in units
+constexpr double bending = 25.0;      ///< compliance of the hinges / spacing^4, which makes a cloth of one stiffness
+constexpr double cloth_step = 0.0025; ///< seconds
 
 /// Stretch along every edge.
 std::vector<Link> links_of(const Body& body, const CornerTable& table)
@@ -93,7 +93,7 @@ Animation cloth(const ShapeOptions& options)
     particles.add_hinges(hinges_of(body, table, bending * spacing * spacing * spacing * spacing));
 
     const double frame_time = 1.0 / options.fps;
-    const auto steps = static_cast<std::size_t>(frame_time / longest_step) + 1;
+    const auto steps = static_cast<std::size_t>(frame_time / cloth_step) + 1;
     for (std::size_t f = 0; f < options.frames; ++f) {
         for (std::size_t s = 0; f > 0 && s < steps; ++s) particles.step(frame_time / static_cast<double>(steps));
         std::span<float> out = animation.frame(f);

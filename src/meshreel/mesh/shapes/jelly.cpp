@@ -13,7 +13,7 @@ namespace meshreel::shapes {
 namespace {
 
 constexpr std::uint32_t cells = 4, nodes = cells + 1; ///< of the elastic lattice, along each axis
-constexpr double longest_step = 0.001;                ///< seconds
+constexpr double jelly_step = 0.001;                  ///< seconds
 constexpr double softness = 5e-4;                     ///< compliance of the lattice's links
 
 std::uint32_t node(std::uint32_t i, std::uint32_t j, std::uint32_t k)
@@ -132,7 +132,7 @@ Animation jelly(const ShapeOptions& options)
     const std::vector<Embedding> embedded(body.points.begin(), body.points.end());
 
     const double frame_time = 1.0 / options.fps;
-    const auto steps = static_cast<std::size_t>(frame_time / longest_step) + 1;
+    const auto steps = static_cast<std::size_t>(frame_time / jelly_step) + 1;
     for (std::size_t f = 0; f < options.frames; ++f) {
         for (std::size_t s = 0; f > 0 && s < steps; ++s) particles.step(frame_time / static_cast<double>(steps));
         const std::span<float> out = animation.frame(f);

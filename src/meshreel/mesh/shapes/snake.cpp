@@ -20,7 +20,7 @@ double thickness(double s)
     return (head + belly) * (s == 0.0 ? 0.0 : nose) * tail + (s == 0.0 || s == 1.0 ? 0.0 : 0.004);
 }
 
-Vec at_rest(double s, double turn)
+Vec snake_at_rest(double s, double turn)
 {
     const double r = thickness(s), c = exact::cos(2.0 * pi * turn), h = exact::sin(2.0 * pi * turn);
     const double flat = h < 0.0 ? 0.6 : 0.85; // a flat belly
@@ -31,7 +31,7 @@ Vec at_rest(double s, double turn)
 
 Animation snake(const ShapeOptions& options)
 {
-    const Body body = tube(options.vertices, 0.13, at_rest);
+    const Body body = tube(options.vertices, 0.13, snake_at_rest);
     Animation animation = animation_of(body, options);
     animation.meta.name = "snake";
     animation.meta.up = Axis::y;

@@ -25,7 +25,7 @@ Section section(double s)
     return {0.13 * bulk + 0.022 * root + 0.15 * fin, 0.075 * bulk + 0.012 * root * (1.0 - 0.8 * fin)};
 }
 
-Vec at_rest(double s, double turn)
+Vec swimmer_at_rest(double s, double turn)
 {
     const Section here = section(s);
     const double c = exact::cos(2.0 * pi * turn), h = exact::sin(2.0 * pi * turn);
@@ -41,7 +41,7 @@ Vec at_rest(double s, double turn)
 
 Animation swimmer(const ShapeOptions& options)
 {
-    const Body body = tube(options.vertices, 0.55, at_rest);
+    const Body body = tube(options.vertices, 0.55, swimmer_at_rest);
     Animation animation = animation_of(body, options);
     animation.meta.name = "swimmer";
     animation.meta.up = Axis::y;
