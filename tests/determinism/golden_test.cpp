@@ -12,29 +12,31 @@ using namespace meshreel;
 namespace {
 
 struct Golden {
-    std::string name;
+    std::string codec, name;
     BasisCoding basis;
     Entropy entropy;
 
-    std::string file() const { return "tests/golden/coddyac_v1_" + name + ".reel"; }
-    std::string hash_file() const { return "tests/golden/coddyac_v1_" + name + ".xxh3"; }
+    std::string file() const { return "tests/golden/" + codec + "_v1_" + name + ".reel"; }
+    std::string hash_file() const { return "tests/golden/" + codec + "_v1_" + name + ".xxh3"; }
 };
 
 const Golden goldens[] = {
-    {"raw_huffman", BasisCoding::raw, Entropy::huffman},
-    {"raw_range", BasisCoding::raw, Entropy::range},
-    {"uniform_huffman", BasisCoding::uniform, Entropy::huffman},
-    {"uniform_range", BasisCoding::uniform, Entropy::range},
-    {"cobra_huffman", BasisCoding::cobra, Entropy::huffman},
-    {"cobra_range", BasisCoding::cobra, Entropy::range},
-    {"lpc1_huffman", BasisCoding::lpc1, Entropy::huffman},
-    {"lpc1_range", BasisCoding::lpc1, Entropy::range},
-    {"lpc2_huffman", BasisCoding::lpc2, Entropy::huffman},
-    {"lpc2_range", BasisCoding::lpc2, Entropy::range},
-    {"lpc3_huffman", BasisCoding::lpc3, Entropy::huffman},
-    {"lpc3_range", BasisCoding::lpc3, Entropy::range},
-    {"lpc4_huffman", BasisCoding::lpc4, Entropy::huffman},
-    {"lpc4_range", BasisCoding::lpc4, Entropy::range},
+    {"coddyac", "raw_huffman", BasisCoding::raw, Entropy::huffman},
+    {"coddyac", "raw_range", BasisCoding::raw, Entropy::range},
+    {"coddyac", "uniform_huffman", BasisCoding::uniform, Entropy::huffman},
+    {"coddyac", "uniform_range", BasisCoding::uniform, Entropy::range},
+    {"coddyac", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
+    {"coddyac", "cobra_range", BasisCoding::cobra, Entropy::range},
+    {"coddyac", "lpc1_huffman", BasisCoding::lpc1, Entropy::huffman},
+    {"coddyac", "lpc1_range", BasisCoding::lpc1, Entropy::range},
+    {"coddyac", "lpc2_huffman", BasisCoding::lpc2, Entropy::huffman},
+    {"coddyac", "lpc2_range", BasisCoding::lpc2, Entropy::range},
+    {"coddyac", "lpc3_huffman", BasisCoding::lpc3, Entropy::huffman},
+    {"coddyac", "lpc3_range", BasisCoding::lpc3, Entropy::range},
+    {"coddyac", "lpc4_huffman", BasisCoding::lpc4, Entropy::huffman},
+    {"coddyac", "lpc4_range", BasisCoding::lpc4, Entropy::range},
+    {"na", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
+    {"na", "cobra_range", BasisCoding::cobra, Entropy::range},
 };
 
 /// XXH3-64 of the positions' bits, little-endian, as hexadecimal digits.
@@ -53,6 +55,7 @@ void make(const Golden& golden)
 {
     const Animation cloth = *shapes::generate(*shapes::find("cloth"), {.vertices = 150, .frames = 16});
     EncodeOptions options;
+    options.codec = golden.codec;
     options.quality.max_error_relative = 0.5;
     options.basis = golden.basis;
     options.entropy = golden.entropy;
@@ -63,7 +66,7 @@ void make(const Golden& golden)
 class GoldenFile : public testing::TestWithParam<Golden> {};
 
 INSTANTIATE_TEST_SUITE_P(Version1, GoldenFile, testing::ValuesIn(goldens),
-                         [](const auto& row) { return row.param.name; });
+                         [](const auto& row) { return row.param.codec + "_" + row.param.name; });
 
 } // namespace
 

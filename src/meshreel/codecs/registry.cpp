@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 
+#include "meshreel/codecs/average.h"
 #include "meshreel/codecs/coddyac.h"
 #include "meshreel/codecs/codec.h"
 
@@ -9,7 +10,7 @@ namespace meshreel::codecs {
 
 std::span<const Codec> all()
 {
-    static const std::array rows{coddyac()};
+    static const std::array rows{coddyac(), average()};
     return rows;
 }
 
