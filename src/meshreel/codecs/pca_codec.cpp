@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "meshreel/codecs/choice.h"
 #include "meshreel/codecs/entropy.h"
 #include "meshreel/container/explain.h"
 #include "meshreel/linalg/pca.h"
@@ -109,11 +110,12 @@ private:
 
     CodedBasis code_basis(const Settings& settings) const
     {
-        const std::size_t K = bases(settings), n = pca_.mean.size();
+        const std::size_t K = bases_of(settings, pca_.singular_values, sequence_.surface.vertex_count),
+                          n = pca_.mean.size();
         const double W = sequence_.surface.vertex_count;
         CodedBasis coded;
         coded.payload.bases = static_cast<std::uint32_t>(K);
-        coded.payload.step = step(settings);
+        coded.payload.step = step_of(settings, pca_.singular_values, sequence_.surface.vertex_count);
         coded.payload.entropy = settings.entropy;
         coded.payload.law = basis_law(settings.basis, settings.basis_ratio * coded.payload.step / std::sqrt(W),
                                       std::span(mean_absolute_).first(K));
@@ -121,25 +123,6 @@ private:
         std::copy_n(pca_.basis.values.begin(), K * n, coded.basis.rows.values.begin());
         coded.bits = write_basis(coded.payload.law, settings.entropy, coded.basis);
         return coded;
-    }
-
-    std::size_t bases(const Settings& settings) const
-    {
-        if (settings.bases) return std::min<std::size_t>(*settings.bases, pca_.basis.rows);
-        const double least =
-            settings.truncation * settings.step * std::sqrt(static_cast<double>(sequence_.surface.vertex_count));
-        return static_cast<std::size_t>(std::count_if(pca_.singular_values.begin(), pca_.singular_values.end(),
-                                                      [&](double s) { return s >= least; }));
-    }
-
-    /// D; where none is asked for, the one to which the last basis vector just matters.
-    double step(const Settings& settings) const
-    {
-        if (settings.step > 0) return settings.step;
-        const std::size_t K = bases(settings);
-        if (K == 0) return 1.0;
-        const double W = sequence_.surface.vertex_count;
-        return pca_.singular_values[K - 1] / (settings.truncation * std::sqrt(W));
     }
 
     Sequence sequence_;

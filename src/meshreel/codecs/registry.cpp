@@ -5,12 +5,13 @@
 #include "meshreel/codecs/average.h"
 #include "meshreel/codecs/coddyac.h"
 #include "meshreel/codecs/codec.h"
+#include "meshreel/codecs/reel.h"
 
 namespace meshreel::codecs {
 
 std::span<const Codec> all()
 {
-    static const std::array rows{coddyac(), average()};
+    static const std::array rows{reel(), coddyac(), average()};
     return rows;
 }
 

@@ -40,6 +40,9 @@ struct Settings {
                                              ///< the last of the bases allows
     std::optional<std::uint32_t> bases = {}; ///< K; none: the components with s_k / sqrt(W) >= truncation * D
     double truncation = 0.65;                ///< tau, see bases; > 0
+    double dead_zone = 0.5;                  ///< levels are 0 up to so many steps, [0.5, 1); 0.5 rounds
+    double first_ratio = 1.0;                ///< step of the components that give the geometry over D, > 0 (reel)
+    double linear = 150.0;                   ///< trust in motions known already against smoothness, >= 0 (reel)
     double basis_ratio = 1.0;                ///< beta: Q_m = beta D / sqrt(W), see basis_law; > 0
     BasisCoding basis = BasisCoding::cobra;
     Entropy entropy = Entropy::range;

@@ -1,0 +1,65 @@
+/// Which vertices a vertex is interpolated from, and with which weights, as its components become known.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meshreel/base/parallel.h"
+#include "meshreel/base/views.h"
+#include "meshreel/mesh/coarse_to_fine.h"
+#include "meshreel/predict/kriging.h"
+
+namespace meshreel::codecs {
+
+/// How the weights of a segment are found; part of the payload.
+struct InterpolationLaw {
+    double linear = 150.0;    ///< predict::Likeness::linear
+    double step = 1.0;        ///< D: the noise of all that is known
+    std::uint32_t growth = 5; ///< batches grow by so many eighths of the components known; more is faster
+};
+
+/// Orders the vertices of a surface by their first components, and weighs their neighbours by all that are known.
+class Interpolation {
+public:
+    static constexpr std::size_t most = predict::Kriging::most;
+
+    /// C [W x K]: columns 0 .. known-1 are known, the first three place the vertices. relevance: g_k of Kriging, [K].
+    Interpolation(MatrixView<const double> C, std::size_t known, std::vector<double> relevance, InterpolationLaw law,
+                  Threads threads);
+
+    const CoarseToFine& order() const { return order_; }
+
+    /// Where a batch of components that begins at k ends.
+    std::size_t batch_end(std::size_t k) const { return k + std::max<std::size_t>(1, k * law_.growth / 8); }
+
+    struct Weights {
+        std::size_t count = 0;
+        std::array<std::uint32_t, most> vertices{}; ///< nearest first
+        std::array<double, most> values{};
+
+        /// guess = sum of w_i C_i over components first .. first + guess.size() - 1.
+        void apply(MatrixView<const double> C, std::size_t first, std::span<double> guess) const;
+    };
+    /// The weights of vertices of one level, from components 0 .. known-1 of theirs and of their neighbours'.
+    std::vector<Weights> weights(std::span<const std::uint32_t> vertices, MatrixView<const double> C,
+                                 std::size_t known) const;
+
+private:
+    static constexpr std::size_t candidates = 24; ///< nearest by the first components; the best 16 by all are used
+
+    Weights of_vertex(std::uint32_t v, MatrixView<const double> C, predict::Kriging& kriging, std::size_t known) const;
+
+    CoarseToFine order_;
+    std::vector<double> relevance_;
+    InterpolationLaw law_;
+    Threads threads_;
+};
+
+/// g_k of predict::Kriging for components of energies s_k^2: faint components are as telling as strong ones, nearly: the
+/// fourth root of s_2^2 / s_k^2; 1 for the first three.
+std::vector<double> relevance_of(std::span<const double> energies);
+
+} // namespace meshreel::codecs

@@ -1,0 +1,143 @@
+/// All further components, from coarse to fine: a vertex is interpolated from its nearest vertices of coarser levels.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meshreel/base/parallel.h"
+#include "meshreel/base/views.h"
+#include "meshreel/codecs/contexts.h"
+#include "meshreel/codecs/interpolation.h"
+#include "meshreel/codecs/surface_walk.h"
+#include "meshreel/coding/mixed_levels.h"
+#include "meshreel/coding/quantiser.h"
+
+namespace meshreel::codecs {
+
+/// Codes components `first` .. K-1 level after level of a CoarseToFine order. Within a level components come in batches;
+/// before each batch every vertex' weights are found anew from all components known of it and of its neighbours. Vertices
+/// of a level do not depend on each other, so weights are found in parallel.
+/// @cost O(W K 16) and O(W 16^2 K) for the weights.
+template <class Core>
+class LevelWalk {
+public:
+    LevelWalk(Core& core, const Interpolation& interpolation, coding::Quantiser quantiser)
+        : core_(core), interpolation_(interpolation), quantiser_(quantiser),
+          levels_({near_columns * own_columns, rows * row_columns, near_columns * depths, fine_columns, seen_contexts},
+                  judges)
+    {
+    }
+
+    /// C [W x K], model units; columns before `first` are known. Writing: originals in. Afterwards C holds what the decoder
+    /// sees. L [W x K]: magnitudes of all levels, up to 255.
+    void code(std::size_t first, MatrixView<double> C, MatrixView<std::uint8_t> L)
+    {
+        usual_.assign(C.cols, 1.0);
+        own_.assign(C.rows, 0.5);
+        const CoarseToFine& order = interpolation_.order();
+        std::size_t begin = 0;
+        for (std::size_t l = 0; l < order.ends.size() && !ended(core_); ++l) {
+            const std::size_t end = order.ends[l];
+            const Level level{std::span(order.order).subspan(begin, end - begin), depth_of(l), C, L};
+            for (std::size_t k = first; k < C.cols && !ended(core_);) {
+                const std::size_t next = std::min(C.cols, interpolation_.batch_end(k));
+                code_batch(level, k, next);
+                k = next;
+            }
+            begin = end;
+        }
+    }
+
+private:
+    static constexpr std::uint32_t near_columns = 22, own_columns = 18, rows = 96, row_columns = 14, depths = 16,
+                                   fine_columns = 46, seen_contexts = 243, judges = 12;
+
+    struct Level {
+        std::span<const std::uint32_t> vertices;
+        std::uint32_t depth;
+        MatrixView<double> C;
+        MatrixView<std::uint8_t> L;
+    };
+    struct Place {
+        std::size_t v, k;
+        std::uint32_t depth;
+    };
+
+    /// A depth for every doubling of the resolution, 1.1^7.27.
+    static std::uint32_t depth_of(std::size_t level)
+    {
+        return static_cast<std::uint32_t>(std::min<std::size_t>(level / 7, depths - 1));
+    }
+
+    void code_batch(const Level& level, std::size_t first, std::size_t last)
+    {
+        const std::vector<Interpolation::Weights> weights = interpolation_.weights(level.vertices, level.C, first);
+        guess_.resize(last - first);
+        for (std::size_t i = 0; i < level.vertices.size() && !ended(core_); ++i) {
+            const std::size_t v = level.vertices[i];
+            weights[i].apply(level.C, first, guess_);
+            for (std::size_t k = first; k < last; ++k)
+                code_value(weights[i], {v, k, level.depth}, level, guess_[k - first]);
+        }
+    }
+
+    void code_value(const Interpolation::Weights& near, const Place& place, const Level& level, double guess)
+    {
+        const auto [v, k, depth] = place;
+        double sizes = 0;
+        for (std::size_t i = 0; i < near.count; ++i) sizes += shares[i] * level.L(near.vertices[i], k);
+        const double nearby = near.count > 0 ? sizes / share_sums[near.count] : 4.0;
+        double &value = level.C(v, k), &own = own_[v], &usual = usual_[k];
+        const double expected = 0.45 * nearby + 0.3 * own + 0.25 * usual;
+        const auto row = static_cast<std::uint32_t>(std::min<std::size_t>(k, rows - 1));
+        const std::int32_t wanted = Core::writes ? quantiser_.level(value - guess) : 0;
+        const std::int32_t coded = levels_.code(
+            core_,
+            {coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
+             row * row_columns + coding::octave_column<0>(expected, row_columns),
+             coding::octave_column<1>(usual, near_columns) * depths + depth,
+             coding::octave_column<2>(expected, fine_columns), seen(near, place, level.L)},
+            coding::octave_column<0>(expected, judges), wanted);
+        value = bounded(guess + quantiser_.value(coded));
+        const std::uint32_t size = magnitude(coded);
+        level.L(v, k) = static_cast<std::uint8_t>(std::min(size, 255u));
+        own += 0.3 * (size - own);
+        usual += 0.01 * (size - usual);
+    }
+
+    /// The levels of the three nearest vertices and of the two components before, each 0, 1 or more.
+    static std::uint32_t seen(const Interpolation::Weights& near, const Place& place, MatrixView<const std::uint8_t> L)
+    {
+        const auto third = [](std::uint32_t size) { return std::min(size, 2u); };
+        std::uint32_t context = third(L(place.v, place.k - 1)) * 3 + third(place.k > 1 ? L(place.v, place.k - 2) : 0);
+        for (std::size_t i = 0; i < 3; ++i)
+            context = context * 3 + (i < near.count ? third(L(near.vertices[i], place.k)) : 0);
+        return context;
+    }
+
+    /// The nearer a neighbour, the more its levels say: 1 / (1 + i), and their sums.
+    static constexpr std::array<double, Interpolation::most> shares = [] {
+        std::array<double, Interpolation::most> table{};
+        for (std::size_t i = 0; i < table.size(); ++i) table[i] = 1.0 / static_cast<double>(1 + i);
+        return table;
+    }();
+    static constexpr std::array<double, Interpolation::most + 1> share_sums = [] {
+        std::array<double, Interpolation::most + 1> table{};
+        for (std::size_t i = 0; i < Interpolation::most; ++i) table[i + 1] = table[i] + shares[i];
+        return table;
+    }();
+
+    Core& core_;
+    const Interpolation& interpolation_;
+    coding::Quantiser quantiser_;
+    coding::MixedLevels<5> levels_;
+    std::vector<double> usual_; ///< [K] how large the levels of a component have been of late
+    std::vector<double> own_;   ///< [W] and those of a vertex
+    std::vector<double> guess_;
+};
+
+} // namespace meshreel::codecs

@@ -1,0 +1,95 @@
+/// Distances between poses, added up as columns become known.
+// SPDX-License-Identifier: MIT
+#include "meshreel/codecs/pose_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meshreel::codecs {
+
+void PoseOrder::renew(MatrixView<const double> Y, std::size_t known)
+{
+    add_squares(Y, known);
+    measure(Y, known);
+    sort();
+}
+
+void PoseOrder::add_squares(MatrixView<const double> Y, std::size_t known)
+{
+    for (std::size_t f = 0; f < Y.rows; ++f)
+        for (std::size_t g = 0; g < f; ++g) {
+            double sum = squares_(f, g);
+            for (std::size_t c = known_; c < known; ++c) {
+                const double difference = Y(f, c) - Y(g, c);
+                sum += difference * difference;
+            }
+            squares_(f, g) = squares_(g, f) = sum;
+        }
+    known_ = std::max(known_, known);
+}
+
+/// The pace of the poses, and how relevant each component is: the fainter the more, by the root of its energy.
+void PoseOrder::measure(MatrixView<const double> Y, std::size_t known)
+{
+    double steps = 0;
+    for (std::size_t f = 1; f < Y.rows; ++f) steps += squares_(f, f - 1);
+    squared_pace_ = steps > 0 ? steps / static_cast<double>(Y.rows - 1) : 1.0;
+    relevance_.assign(1, 1.0);
+    double first = 0;
+    for (std::size_t c = 3; c < known; c += 3) {
+        double energy = 0;
+        for (std::size_t f = 0; f < Y.rows; ++f)
+            energy += Y(f, c) * Y(f, c) + Y(f, c + 1) * Y(f, c + 1) + Y(f, c + 2) * Y(f, c + 2);
+        if (c == 3) first = energy;
+        const double relevance = energy > 0 && first > 0 ? std::sqrt(first / energy) : 0.0;
+        relevance_.insert(relevance_.end(), 3, relevance);
+    }
+}
+
+void PoseOrder::sort()
+{
+    const std::size_t F = squares_.rows;
+    std::vector<double> distance(F, std::numeric_limits<double>::infinity());
+    order_.clear();
+    for (std::size_t next = 0; order_.size() < F;) {
+        order_.push_back(next);
+        distance[next] = -1;
+        std::size_t farthest = 0;
+        for (std::size_t f = 0; f < F; ++f) {
+            if (distance[f] >= 0) distance[f] = std::min(distance[f], square(next, f));
+            if (distance[f] > distance[farthest]) farthest = f;
+        }
+        next = farthest;
+    }
+}
+
+PoseOrder::Neighbours PoseOrder::nearest(std::size_t rank, std::size_t most, MatrixView<const double> Y) const
+{
+    struct Near {
+        double square;
+        std::size_t frame;
+        bool operator<(const Near& other) const
+        {
+            return square != other.square ? square < other.square : frame < other.frame;
+        }
+    };
+    const std::size_t f = order_[rank];
+    std::vector<Near> near;
+    for (std::size_t r = 0; r < rank; ++r) near.push_back({square(f, order_[r]), order_[r]});
+    Neighbours result;
+    result.count = std::min(most, rank);
+    if (result.count == 0) return result;
+    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(result.count), near.end());
+    predict::Kriging kriging(relevance_.size());
+    const double pace = std::sqrt(squared_pace_);
+    for (std::size_t i = 0; i < result.count; ++i) {
+        const std::size_t g = result.frames[i] = near[i].frame;
+        kriging.differences(0)[i] = pace * (static_cast<double>(g) - static_cast<double>(f));
+        for (std::size_t k = 1; k < relevance_.size(); ++k) kriging.differences(k)[i] = Y(g, k + 2) - Y(f, k + 2);
+    }
+    result.weights = kriging.weights(result.count, relevance_, {100.0, 0.005, 0.0});
+    return result;
+}
+
+} // namespace meshreel::codecs

@@ -1,0 +1,44 @@
+/// Kriging: the weights with which a point's neighbours interpolate it best, given what is already known of them all.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace meshreel::predict {
+
+/// How alike values at two points are taken to be.
+struct Likeness {
+    double linear = 150.0; ///< weight of what is linear in the known values against what only is smooth, >= 0
+    double nugget = 0.01;  ///< noise of the neighbours' values, relative to the values' change over the mean distance
+    double noise = 0.0;    ///< noise that does not shrink with the distance: noise / mean distance adds to the nugget
+};
+
+/// The neighbours of one point: what is known of each, less what is known of the point.
+///
+/// With e_i the difference of neighbour i, covariances are c - |e_i - e_j|^1.75 + linear * sum_k g_k e_ik e_jk, all in
+/// units of the mean |e_i|, c beyond the largest; the best unbiased linear estimate follows from the n x n system. The
+/// first term is the radial function of (8.7); the second makes weights that reproduce, in the least squares sense,
+/// the values already known, as (8.5) does.
+class Kriging {
+public:
+    static constexpr std::size_t most = 16; ///< neighbours
+
+    /// For points of up to `dimensions` known values.
+    explicit Kriging(std::size_t dimensions) : e_(dimensions * most) {}
+
+    /// The differences of known value k, all neighbours' side by side; set every one before weights().
+    std::span<double, most> differences(std::size_t k) { return std::span<double, most>(e_.data() + most * k, most); }
+
+    /// Weights of `count` neighbours, 1 <= count <= most, of sum 1, from known values 0 .. g.size()-1, g [dimensions
+    /// known] their relevance. + - * / sqrt only.
+    /// @cost O(most^2 dimensions + count^3).
+    std::array<double, most> weights(std::size_t count, std::span<const double> g, const Likeness& likeness) const;
+
+private:
+    std::vector<double> e_; ///< [dimensions x most]
+};
+
+} // namespace meshreel::predict
