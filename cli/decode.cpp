@@ -23,13 +23,17 @@ public:
         app.add_option("--base", source_.base, "the base mesh that the file was made with")->type_name("FILE");
         add_parsed(app, {"--frames", "frames to take, from 0, the last included"}, source_.frames, parse_frames)
             ->type_name("A:B:STEP");
+        app.add_option("--fps", source_.fps, "frames a second: moves between the stored frames, smoothly")
+            ->check(positive())
+            ->type_name("N");
         source_.declare_limits(app);
         target_.declare(app);
         app.footer("Examples:\n"
                    "  meshreel decode walk.reel walk.####.obj\n"
                    "  meshreel decode out.reel back.pc2 --mesh-out mesh.obj\n"
                    "  meshreel decode out.reel back.mdd --base mesh.obj\n"
-                   "  meshreel decode walk.reel walk.glb --morphs pca\n");
+                   "  meshreel decode walk.reel walk.glb --morphs pca\n"
+                   "  meshreel decode walk.reel smooth.####.obj --fps 60 --frames 100:149\n");
     }
 
     Result<Report> run(Console& console) override

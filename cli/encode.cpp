@@ -1,6 +1,7 @@
 /// encode: compresses an animation into a .reel file.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,16 @@ struct Choices {
     }
     Entropy entropy_value() const { return entropy == "huffman" ? Entropy::huffman : Entropy::range; }
 };
+
+Result<std::uint32_t> parse_segment(const std::string& text)
+{
+    if (text == "auto") return std::uint32_t{0};
+    if (text == "none") return one_segment;
+    std::uint32_t frames = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frames);
+    if (error == std::errc{} && end == text.data() + text.size() && frames > 0) return frames;
+    return Error{ErrorCode::usage, fmt::format("'{}' is neither auto nor none nor a number of frames above 0", text)};
+}
 
 class Encode : public Verb {
 public:
@@ -111,6 +122,10 @@ private:
         choice("--basis", choices_.basis, {basis_coding_names.begin(), basis_coding_names.end()},
                "how the basis is coded");
         choice("--entropy", choices_.entropy, {"huffman", "range"}, "how residuals become bits");
+        add_parsed(app, {"--segment", "frames that are coded together at most; auto decides, none never cuts"},
+                   segment_, parse_segment)
+            ->type_name("auto|N|none")
+            ->group(coding_group);
         app.add_option("--codec", choices_.codec, "the codec")
             ->capture_default_str()
             ->type_name("NAME")
@@ -130,6 +145,7 @@ private:
         all.base = source_.base.empty() ? nullptr : &base;
         all.basis = choices_.basis_value();
         all.entropy = choices_.entropy_value();
+        all.segment = segment_;
         all.threads = source_.threads;
         all.progress = console.progress();
         return all;
@@ -172,6 +188,7 @@ private:
     Amount max_error_;
     std::optional<double> kg_, step_;
     std::optional<std::uint32_t> bases_;
+    std::uint32_t segment_ = 0;
     Choices choices_;
 };
 

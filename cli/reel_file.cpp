@@ -20,12 +20,19 @@ Result<Animation> load_base(const Source& source, Console& console)
 Result<Animation> load_reel(const Source& source, Console& console)
 {
     MESHREEL_TRY(const Animation base, load_base(source, console));
-    MESHREEL_TRY(const Bytes bytes, read_file(source.path, source.limits));
     DecodeOptions options;
     options.base = source.base.empty() ? nullptr : &base;
     options.limits = source.limits;
     options.threads = source.threads;
     options.progress = console.progress();
+    options.frames = source.frames;
+    if (source.fps > 0.0) options.fps = source.fps;
+    const bool some = source.frames.first > 0 || source.frames.last != io::FrameRange{}.last;
+    if (some && !source.verify_all && is_regular_file(source.path)) {
+        MESHREEL_TRY(FileSource file, FileSource::open(source.path));
+        return in_file(decode(file, options), source.path);
+    }
+    MESHREEL_TRY(const Bytes bytes, read_file(source.path, source.limits));
     return in_file(decode(bytes, options), source.path);
 }
 

@@ -9,7 +9,8 @@
 
 namespace meshreel::cli {
 
-/// Decodes a .reel file, all its frames. @fails io, bad_input, unsupported; naming the file.
+/// Decodes the frames asked for of a .reel file; of a regular file only what they need is read, unless it is to be
+/// verified. @fails usage: no such frame; io, bad_input, unsupported; naming the file.
 Result<Animation> load_reel(const Source& source, Console& console);
 
 /// The base mesh that `source.base` names, or an empty animation where it names none.

@@ -40,18 +40,9 @@ Result<Animation> load_as(const io::Format& format, const Source& source, const 
     return animation;
 }
 
-Result<Animation> load_reel_source(const Source& source, Console& console)
-{
-    if (source.fps > 0.0)
-        return Error{
-            ErrorCode::usage, "--fps does not apply to a .reel file, which has its own times", {}, source.path};
-    MESHREEL_TRY(Animation animation, load_reel(source, console));
-    return in_file(chosen_frames(std::move(animation), source.frames), source.path);
-}
-
 Result<Animation> load_any(const Source& source, Console& console)
 {
-    if (source.is_reel()) return load_reel_source(source, console);
+    if (source.is_reel()) return load_reel(source, console);
     if (source.path == "-" && source.format.empty())
         return Error{ErrorCode::usage, "standard input has no extension; say its format by --format", {}, "-"};
     if (source.format.empty()) MESHREEL_CHECK(check_extension(source.path));
@@ -68,7 +59,7 @@ void Source::declare(CLI::App& app)
     app.add_option("--mesh", mesh, "the mesh of a point cache (.pc2, .mdd)")->type_name("FILE");
     app.add_option("--base", base, "the base mesh of a .reel file made with --base")->type_name("FILE");
     app.add_option("--clip", clip, "the clip to take of a file with several; default: the first")->type_name("NAME");
-    app.add_option("--fps", fps, "frames a second: sampling rate of a skinned file, timing of a sequence")
+    app.add_option("--fps", fps, "frames a second: sampling rate of a skinned or .reel file, timing of a sequence")
         ->check(positive())
         ->type_name("N");
     add_parsed(app, {"--frames", "frames to take, from 0, the last included"}, frames, parse_frames)
@@ -131,32 +122,6 @@ Result<Animation> load(const Source& source, Console& console)
     Result<Animation> animation = load_any(source, console);
     if (animation.ok())
         console.detail(fmt::format("{}: read in {:.3f} s: {}", source.path, watch.seconds(), counts_text(*animation)));
-    return animation;
-}
-
-Result<Animation> chosen_frames(Animation animation, const io::FrameRange& frames)
-{
-    const std::size_t count = animation.frame_count();
-    if (frames.first == 0 && frames.step == 1 && frames.last >= count) return animation;
-    if (frames.first >= count)
-        return Error{ErrorCode::usage, fmt::format("frame {} is beyond the {} frames", frames.first, count),
-                     "--frames"};
-    const std::size_t last = std::min<std::size_t>(frames.last, count - 1);
-    std::size_t kept = 0;
-    const std::size_t stride = animation.vertex_count * std::size_t{3};
-    for (std::size_t f = frames.first; f <= last; ++kept) {
-        const auto from = animation.positions.begin() + static_cast<std::ptrdiff_t>(f * stride);
-        std::copy_n(from, stride, animation.positions.begin() + static_cast<std::ptrdiff_t>(kept * stride));
-        animation.times_s[kept] = animation.times_s[f];
-        if (frames.step > last - f) { // the next one would be beyond the last, or beyond all numbers
-            ++kept;
-            break;
-        }
-        f += frames.step;
-    }
-    animation.positions.resize(kept * stride);
-    animation.times_s.resize(kept);
-    if (frames.step > 1) animation.meta.fps /= static_cast<double>(frames.step);
     return animation;
 }
 

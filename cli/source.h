@@ -23,6 +23,7 @@ struct Source {
     std::string clip;
     double fps = 0.0; ///< 0: the file's
     io::FrameRange frames;
+    bool verify_all = false; ///< of a .reel file, also the parts that the frames do not need
     DecodeLimits limits;
     Threads threads;
 
@@ -46,8 +47,5 @@ Status check_extension(const std::string& path);
 
 /// Reads any animation; the result is valid. @fails as io::load and decode do, naming the file.
 Result<Animation> load(const Source& source, Console& console);
-
-/// Frames first, first + step, ..., last of an animation, as readers count them. @fails usage: none is left.
-Result<Animation> chosen_frames(Animation animation, const io::FrameRange& frames);
 
 } // namespace meshreel::cli

@@ -30,6 +30,7 @@ public:
     Result<Report> run(Console& console) override
     {
         const Stopwatch watch;
+        source_.verify_all = true;
         const Result<Animation> animation = load(source_, console);
         Json figures{{"schema", "meshreel.validate/1"}, {"file", source_.path}, {"format", source_.format_name()}};
         Report report{figures, {}, true};

@@ -1,4 +1,4 @@
-/// Feeds any bytes to the front door's decoder and inspectors.
+/// Feeds any bytes to the front door's decoder, whole, in parts and at another rate, and to its inspectors.
 // SPDX-License-Identifier: MIT
 #include "meshreel/meshreel.h"
 
@@ -12,6 +12,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const ByteView bytes{data, size};
     const auto animation = decode(bytes, options);
     if (animation.ok() && !validate(*animation).ok()) __builtin_trap();
+    MemorySource source(bytes);
+    const auto parts = decode(source, options);
+    if (animation.ok() && !(parts.ok() && parts->positions == animation->positions)) __builtin_trap();
+    options.frames.first = 1;
+    options.fps = 37.0;
+    const auto other_rate = decode(source, options);
+    if (other_rate.ok() && !validate(*other_rate).ok()) __builtin_trap();
     if (info(bytes, options.limits).ok() && bytes.empty()) __builtin_trap();
     return 0;
 }

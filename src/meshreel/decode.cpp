@@ -8,6 +8,7 @@
 #include "meshreel/container/explain.h"
 #include "meshreel/container/package.h"
 #include "meshreel/meshreel.h"
+#include "meshreel/shown_frames.h"
 
 namespace meshreel {
 
@@ -53,24 +54,6 @@ Result<const codecs::Codec*> codec_of(const Header& header)
     return codec;
 }
 
-/// Decodes all segments: frames [F x 3W].
-Result<Matrix<float>> read_frames(const StreamReader& file, const Header& header, const connectivity::Surface& surface,
-                                  const DecodeOptions& options)
-{
-    MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
-    MESHREEL_TRY(const std::vector<container::Segment> segments, container::read_segments(file, header));
-    Matrix<float> frames(header.frame_count, 3ul * header.coded_vertex_count);
-    for (const container::Segment& segment : segments) {
-        report(options.progress, "decode", static_cast<double>(segment.first_frame) / header.frame_count);
-        const MatrixView<float> part{frames.row(segment.first_frame).data(), segment.frame_count, frames.cols};
-        const auto offset = static_cast<std::uint64_t>(segment.payload.data() - file.file().data());
-        MESHREEL_CHECK(codecs::decode(
-            *codec, {{segment.payload, offset, "SEGM"}, surface, segment.frame_count, options.limits, options.threads},
-            part));
-    }
-    return frames;
-}
-
 /// Gives each of the V vertices the trajectory of its surface vertex.
 std::vector<float> spread(const Matrix<float>& frames, std::span<const std::uint32_t> surface_of)
 {
@@ -79,6 +62,40 @@ std::vector<float> spread(const Matrix<float>& frames, std::span<const std::uint
     for (std::size_t f = 0; f < frames.rows; ++f)
         for (std::uint32_t v : surface_of) out = std::copy_n(frames.row(f).data() + 3ul * v, 3, out);
     return positions;
+}
+
+/// A file whose parts lie ready.
+struct Opening {
+    const StreamReader& file;
+    const Header& header;
+    container::SegmentSource& segments;
+};
+
+Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
+{
+    const auto& [file, header, segments] = reel;
+    Animation animation;
+    animation.vertex_count = header.vertex_count;
+    container::Budget times_budget(options.limits.max_memory);
+    MESHREEL_TRY(const std::vector<double> times, container::read_times(file, header, times_budget));
+    MESHREEL_TRY(animation.meta, container::read_metadata(file));
+    const std::uint64_t vertices = header.vertex_count + std::uint64_t{header.coded_vertex_count};
+    const std::uint64_t most = std::min(options.limits.max_frames, options.limits.max_memory / 12 / vertices);
+    MESHREEL_TRY(ShownFrames shown, shown_frames(times, animation.meta, options, most));
+    MESHREEL_CHECK(within(options.limits, vertices, header.triangle_count, shown.mixes.size()));
+    MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
+    MESHREEL_TRY(connectivity::Topology topology, read_topology(file, header, options.base));
+    MESHREEL_TRY(const Matrix<float> frames, pose_frames({*codec, segments, topology.surface, options}, shown));
+    animation.positions = spread(frames, topology.surface_of);
+    animation.triangles = std::move(topology.triangles);
+    animation.times_s = std::move(shown.times_s);
+    animation.meta.fps = shown.fps;
+    container::Budget budget(options.limits.max_memory -
+                             std::min(options.limits.max_memory, animation.positions.size() * 4));
+    MESHREEL_TRY(animation.appearance,
+                 container::read_appearance(file, {animation.vertex_count, animation.triangles}, budget));
+    MESHREEL_CHECK(validate(animation));
+    return animation;
 }
 
 /// The names of all that is carried beside the positions, without unpacking it.
@@ -106,22 +123,16 @@ Result<Animation> decode(ByteView reel, const DecodeOptions& options)
 {
     MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, options.limits));
     MESHREEL_TRY(const Header header, container::read_header(file));
-    MESHREEL_CHECK(within(options.limits, header.vertex_count + std::uint64_t{header.coded_vertex_count},
-                          header.triangle_count, header.frame_count));
-    MESHREEL_TRY(connectivity::Topology topology, read_topology(file, header, options.base));
-    MESHREEL_TRY(const Matrix<float> frames, read_frames(file, header, topology.surface, options));
-    Animation animation;
-    animation.vertex_count = header.vertex_count;
-    animation.positions = spread(frames, topology.surface_of);
-    animation.triangles = std::move(topology.triangles);
-    container::Budget budget(options.limits.max_memory -
-                             std::min(options.limits.max_memory, animation.positions.size() * 4));
-    MESHREEL_TRY(animation.times_s, container::read_times(file, header, budget));
-    MESHREEL_TRY(animation.meta, container::read_metadata(file));
-    MESHREEL_TRY(animation.appearance,
-                 container::read_appearance(file, {animation.vertex_count, animation.triangles}, budget));
-    MESHREEL_CHECK(validate(animation));
-    return animation;
+    MESHREEL_TRY(container::SegmentList segments, container::SegmentList::open(file, header));
+    return unpacked({file, header, segments}, options);
+}
+
+Result<Animation> decode(ByteSource& reel, const DecodeOptions& options)
+{
+    MESHREEL_TRY(const StreamReader head, StreamReader::open_head(reel, options.limits));
+    MESHREEL_TRY(const Header header, container::read_header(head));
+    container::SegmentFetcher segments(reel, head, header);
+    return unpacked({head, header, segments}, options);
 }
 
 Result<Info> info(ByteView reel, const DecodeLimits& limits)

@@ -20,8 +20,8 @@ namespace meshreel {
 
 namespace {
 
-constexpr std::size_t longest_segment = 1000; // frames; the PCA grows with the cube of a segment's length
-constexpr std::size_t usual_bases = 256;      // enough for nearly every target; more are prepared when it is not
+constexpr std::size_t usual_segment = 1000; // frames at most; the PCA grows with the cube of a segment's length
+constexpr std::size_t usual_bases = 256;    // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
 {
@@ -33,9 +33,9 @@ struct FrameSpan {
 };
 
 /// As few segments as the longest allows, of nearly equal length.
-std::vector<FrameSpan> segments_of(std::size_t F)
+std::vector<FrameSpan> segments_of(std::size_t F, std::size_t longest)
 {
-    const std::size_t count = (F + longest_segment - 1) / longest_segment;
+    const std::size_t count = F / longest + (F % longest != 0);
     std::vector<FrameSpan> segments;
     for (std::size_t s = 0; s < count; ++s) segments.push_back({F * s / count, F * (s + 1) / count - F * s / count});
     return segments;
@@ -49,7 +49,7 @@ public:
           topology_(connectivity::encode(
               {animation.vertex_count, animation.triangles, weld(animation, options.threads).unique_of},
               options.order)),
-          segments_(segments_of(animation.frame_count()))
+          segments_(segments_of(animation.frame_count(), options.segment == 0 ? usual_segment : options.segment))
     {
         const std::size_t W = surface().vertex_count;
         frames_ = Matrix<float>(animation.frame_count(), 3 * W);

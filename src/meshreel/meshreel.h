@@ -36,9 +36,13 @@ struct EncodeOptions {
     const Animation* base = nullptr; ///< for Order::base: V and triangles that the reader will have
     BasisCoding basis = BasisCoding::cobra;
     Entropy entropy = Entropy::range;
+    /// Frames that share a basis, at most: a reader that wants one of them reads them all. 0: the encoder decides;
+    /// one_segment: never cut.
+    std::uint32_t segment = 0;
     Threads threads;
     Progress progress;
 };
+inline constexpr std::uint32_t one_segment = 0xffffffff;
 
 /// What an encoding reached, measured on the decoded file.
 struct Encoded {
@@ -52,9 +56,13 @@ struct Encoded {
 
 struct DecodeOptions {
     const Animation* base = nullptr; ///< the base mesh of a file made with Order::base
-    DecodeLimits limits;
-    Threads threads;
-    Progress progress;
+    io::FrameRange frames = {};      ///< stored frames to take; default: all
+    /// Show the time from the first to the last of them (of a loop: up to its next turn) at so many frames a second,
+    /// > 0: between stored frames motion is interpolated, cubic in time and exactly through them. None: as stored.
+    std::optional<double> fps = {};
+    DecodeLimits limits = {};
+    Threads threads = {};
+    Progress progress = {};
 };
 
 /// Compresses an animation. A quality target is verified on the decoded bytes before this returns.
@@ -64,6 +72,10 @@ Result<Encoded> encode(const Animation& animation, const EncodeOptions& options 
 
 /// Rebuilds an animation. Any bytes may be given. @fails bad_input, unsupported, naming byte and field.
 Result<Animation> decode(ByteView reel, const DecodeOptions& options = {});
+
+/// The same from a file of which only what is needed is fetched: index and head, and of the segments those that hold a
+/// frame asked for. Unlike decode(ByteView) it does not verify the others. @fails as decode; io.
+Result<Animation> decode(ByteSource& reel, const DecodeOptions& options = {});
 
 /// The animation numbered as Order::free would give it back: to compare a decoded file with its original.
 Animation in_free_order(const Animation& animation, Threads threads = {});

@@ -1,4 +1,4 @@
-/// Whole files by POSIX calls, each failure with the system's reason.
+/// Files by POSIX calls, each failure with the system's reason.
 // SPDX-License-Identifier: MIT
 #include "meshreel/base/file.h"
 
@@ -66,6 +66,53 @@ Result<Bytes> read_file(const std::string& path, const DecodeLimits& limits)
                 Result<Bytes>(bad_input(concat("is larger than the memory limit of ", limits.max_memory, " bytes"))),
                 path);
     }
+}
+
+bool is_regular_file(const std::string& path)
+{
+    struct stat status {};
+    return path != "-" && ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
+FileSource::FileSource(std::string path, int descriptor, std::uint64_t size)
+    : path_(std::move(path)), descriptor_(descriptor), size_(size)
+{
+}
+
+FileSource::FileSource(FileSource&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_)
+{
+}
+
+FileSource::~FileSource()
+{
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<FileSource> FileSource::open(const std::string& path)
+{
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return system_error(path, "cannot open");
+    FileSource file(path, descriptor, 0);
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0) return system_error(path, "cannot read");
+    if (!S_ISREG(status.st_mode)) return Error{ErrorCode::io, "is not a regular file", {}, path, {}};
+    file.size_ = static_cast<std::uint64_t>(status.st_size);
+    return file;
+}
+
+Result<Bytes> FileSource::fetch(std::uint64_t offset, std::size_t count)
+{
+    Bytes bytes(count);
+    for (std::size_t filled = 0; filled < count;) {
+        const ssize_t got =
+            ::pread(descriptor_, bytes.data() + filled, count - filled, static_cast<off_t>(offset + filled));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return system_error(path_, "cannot read");
+        if (got == 0) return Error{ErrorCode::io, "became shorter while it was read", {}, path_, {}};
+        filled += static_cast<std::size_t>(got);
+    }
+    return bytes;
 }
 
 AtomicFile::AtomicFile(std::string path, std::string temporary, int descriptor)

@@ -1,9 +1,10 @@
-/// Whole files in and out: reads with a cap, writes to a temporary name and renames.
+/// Files in and out: reads whole ones with a cap, or parts; writes to a temporary name and renames.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
 
+#include "meshreel/base/byte_source.h"
 #include "meshreel/base/limits.h"
 #include "meshreel/base/result.h"
 #include "meshreel/base/views.h"
@@ -12,6 +13,30 @@ namespace meshreel {
 
 /// All bytes of a file; "-" is standard input. @fails io: cannot be opened or read; bad_input: larger than the limit.
 Result<Bytes> read_file(const std::string& path, const DecodeLimits& limits = {});
+
+/// A regular file, read where it is asked to.
+class FileSource : public ByteSource {
+public:
+    /// @fails io: it cannot be opened, or is not a regular file.
+    static Result<FileSource> open(const std::string& path);
+
+    FileSource(FileSource&& other) noexcept;
+    FileSource& operator=(FileSource&&) = delete;
+    ~FileSource() override;
+
+    std::uint64_t size() const override { return size_; }
+    Result<Bytes> fetch(std::uint64_t offset, std::size_t count) override;
+
+private:
+    FileSource(std::string path, int descriptor, std::uint64_t size);
+
+    std::string path_;
+    int descriptor_;
+    std::uint64_t size_;
+};
+
+/// Whether a path names a regular file: one that FileSource opens.
+bool is_regular_file(const std::string& path);
 
 /// A file that appears under its name only when complete. Until commit() the bytes stand in a temporary file beside it,
 /// which the destructor removes. "-" is standard output; a device or a pipe is written straight.

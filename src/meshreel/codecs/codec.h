@@ -78,6 +78,15 @@ struct Codec {
 /// Fills frames [F x 3W] from a payload of F frames. @fails as Codec::open.
 Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames);
 
+/// A payload decoded so far that any of its frames can be posed.
+struct Opened {
+    Trajectories trajectories;
+};
+/// @fails as Codec::open.
+Result<Opened> open(const Codec& codec, const Coded& coded);
+/// Frames [N x 3W] mixed from those of the payload, before rounding; a mix of one frame alone is what decode() rounds.
+void pose(const Opened& opened, const Mixes& mixes, MatrixView<double> frames, Threads threads);
+
 /// Every codec, in the order of the documentation.
 std::span<const Codec> all();
 

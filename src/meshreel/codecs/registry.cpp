@@ -29,4 +29,15 @@ Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames)
     return Ok{};
 }
 
+Result<Opened> open(const Codec& codec, const Coded& coded)
+{
+    MESHREEL_TRY(Trajectories trajectories, codec.open(coded));
+    return Opened{std::move(trajectories)};
+}
+
+void pose(const Opened& opened, const Mixes& mixes, MatrixView<double> frames, Threads threads)
+{
+    pose(opened.trajectories, mixes, frames, threads);
+}
+
 } // namespace meshreel::codecs

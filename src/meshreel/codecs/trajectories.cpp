@@ -43,25 +43,52 @@ std::vector<double> transposed(MatrixView<const double> C, std::size_t first, st
     return Ct;
 }
 
-} // namespace
-
-void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads threads)
+template <class Number>
+void rebuild_as(const Basis& basis, MatrixView<const double> C, MatrixView<Number> frames, Threads threads)
 {
-    const Basis& basis = trajectories.basis;
-    const Matrix<double>& C = trajectories.C;
     const std::size_t W = frames.cols / 3, F = frames.rows;
     parallel_for((W + pose_block - 1) / pose_block, threads, [&](std::size_t task) {
         const std::size_t first = task * pose_block, count = std::min(pose_block, W - first);
-        const std::vector<double> Ct = transposed(C.view(), first, count);
+        const std::vector<double> Ct = transposed(C, first, count);
         double sums[pose_block];
         for (std::size_t f = 0; f < F; ++f)
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::size_t row = c * F + f;
                 add_up({basis.mean[row], basis.rows.view(), row}, Ct.data(), sums);
-                float* out = frames.row(f).data() + 3 * first + c;
-                for (std::size_t v = 0; v < count; ++v) out[3 * v] = static_cast<float>(sums[v]);
+                Number* out = frames.row(f).data() + 3 * first + c;
+                for (std::size_t v = 0; v < count; ++v) out[3 * v] = static_cast<Number>(sums[v]);
             }
     });
+}
+
+/// One trajectory [3F] at other times [3N].
+void mix_trajectory(std::span<const double> from, const Mixes& mixes, std::span<double> to)
+{
+    const std::size_t F = from.size() / 3, N = mixes.wanted.size();
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < N; ++i) {
+            double sum = -0.0; // unlike 0, it changes nothing that is added to it
+            for (const FrameMix::Part& part : mixes.wanted[i].used())
+                if (part.frame >= mixes.first && part.frame - mixes.first < F)
+                    sum += part.weight * from[c * F + part.frame - mixes.first];
+            to[c * N + i] = sum;
+        }
+}
+
+} // namespace
+
+void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads threads)
+{
+    rebuild_as(trajectories.basis, trajectories.C.view(), frames, threads);
+}
+
+void pose(const Trajectories& trajectories, const Mixes& mixes, MatrixView<double> frames, Threads threads)
+{
+    const std::size_t N = mixes.wanted.size(), K = trajectories.basis.rows.rows;
+    Basis basis{std::vector<double>(3 * N), Matrix<double>(K, 3 * N)};
+    mix_trajectory(trajectories.basis.mean, mixes, basis.mean);
+    for (std::size_t k = 0; k < K; ++k) mix_trajectory(trajectories.basis.rows.row(k), mixes, basis.rows.row(k));
+    rebuild_as(basis, trajectories.C.view(), frames, threads);
 }
 
 } // namespace meshreel::codecs

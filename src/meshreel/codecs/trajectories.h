@@ -5,6 +5,7 @@
 #include "meshreel/base/parallel.h"
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/basis.h"
+#include "meshreel/mesh/frame_mix.h"
 
 namespace meshreel::codecs {
 
@@ -18,5 +19,10 @@ struct Trajectories {
 /// frames [F x 3W].
 /// @cost O(W F K).  @source thesis (8.2)
 void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads threads);
+
+/// Frames mixed from those of the trajectories, before rounding, into frames [N x 3W]: it is the basis that is mixed, at
+/// K numbers a frame instead of 3W. A mix of one frame alone gives what rebuild() rounds, bit for bit.
+/// @cost O(W N K).
+void pose(const Trajectories& trajectories, const Mixes& mixes, MatrixView<double> frames, Threads threads);
 
 } // namespace meshreel::codecs

@@ -129,7 +129,8 @@ struct AssetChunk {
 struct Segment {
     std::uint32_t first_frame = 0;
     std::uint32_t frame_count = 0;
-    ByteView payload; ///< the codec's own; must outlive this struct
+    ByteView payload;                 ///< the codec's own; must outlive this struct
+    std::uint64_t payload_offset = 0; ///< of its first byte in the file; known after read_segment()
 
     void fields(auto& io)
     {

@@ -67,8 +67,8 @@ Status add_appearance(StreamWriter& file, const Appearance& appearance, const Me
 Result<Header> read_header(const StreamReader& file)
 {
     MESHREEL_TRY(const Header header, file.read<Header>(type::head));
-    MESHREEL_CHECK(in_chunk(within(file.limits(), header.vertex_count, header.triangle_count, header.frame_count),
-                            *file.find(type::head)));
+    MESHREEL_CHECK(
+        in_chunk(within(file.limits(), header.vertex_count, header.triangle_count, 1), *file.find(type::head)));
     return header;
 }
 
@@ -103,12 +103,19 @@ Result<Appearance> read_appearance(const StreamReader& file, const MeshShape& me
     return appearance;
 }
 
+Result<Segment> read_segment(const Chunk& chunk, const DecodeLimits& limits)
+{
+    MESHREEL_TRY(Segment segment, read_fields<Segment>(chunk.source(), limits));
+    segment.payload_offset = chunk.offset + (chunk.payload.size() - segment.payload.size());
+    return segment;
+}
+
 Result<std::vector<Segment>> read_segments(const StreamReader& file, const Header& header)
 {
     std::vector<Segment> segments;
     std::uint64_t next = 0;
     for (const Chunk& chunk : file.all(type::segm)) {
-        MESHREEL_TRY(const Segment segment, read_fields<Segment>(chunk.source(), file.limits()));
+        MESHREEL_TRY(const Segment segment, read_segment(chunk, file.limits()));
         if (segment.first_frame != next || segment.frame_count > header.frame_count - next)
             return bad_input(concat("frames ", segment.first_frame, " and ", segment.frame_count - 1ull,
                                     " more, but frame ", next, " of ", header.frame_count, " is next"),

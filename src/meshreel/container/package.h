@@ -27,7 +27,7 @@ Status add_head(StreamWriter& file, const Header& header, const std::vector<doub
 /// @fails usage: a name too long.
 Status add_appearance(StreamWriter& file, const Appearance& appearance, const MeshShape& mesh);
 
-/// HEAD; its counts are within the limits, together too.
+/// HEAD; its counts are within the limits, and so is one frame.
 Result<Header> read_header(const StreamReader& file);
 /// The F times; strictly increasing.
 Result<std::vector<double>> read_times(const StreamReader& file, const Header& header, Budget& budget);
@@ -35,6 +35,8 @@ Result<std::vector<double>> read_times(const StreamReader& file, const Header& h
 Result<Metadata> read_metadata(const StreamReader& file);
 /// All attributes (bit for bit as they were), names and assets.
 Result<Appearance> read_appearance(const StreamReader& file, const MeshShape& mesh, Budget& budget);
+/// One segment; where its payload is in the file too.
+Result<Segment> read_segment(const Chunk& chunk, const DecodeLimits& limits);
 /// All segments in time order; they cover 0 .. F-1.
 Result<std::vector<Segment>> read_segments(const StreamReader& file, const Header& header);
 

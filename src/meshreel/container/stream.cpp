@@ -154,9 +154,9 @@ Result<StreamReader> StreamReader::open(ByteView file, const DecodeLimits& limit
     reader.limits_ = limits;
     MESHREEL_TRY(reader.preamble_, read_preamble(file));
     MESHREEL_CHECK(reader.walk());
+    MESHREEL_CHECK(reader.check_index());
     MESHREEL_CHECK(reader.check_known());
     MESHREEL_CHECK(reader.check_counts());
-    MESHREEL_CHECK(reader.check_index());
     return reader;
 }
 
@@ -187,13 +187,13 @@ Status StreamReader::walk()
 /// Refuses types that we do not know and may not skip, and a first chunk that is not HEAD.
 Status StreamReader::check_known() const
 {
-    if (chunks_.empty() || chunks_.front().type != type::head)
+    if (index_.chunks.empty() || index_.chunks.front().type != type::head)
         return bad_input("the first chunk must be HEAD", "HEAD", at_byte(Preamble::size));
-    for (const Chunk& chunk : chunks_) {
-        if (chunk.type == type::indx) return bad_input("a second INDX", "INDX", at_byte(chunk.begin));
+    for (const Index::Entry& chunk : index_.chunks) {
+        if (chunk.type == type::indx) return bad_input("a second INDX", "INDX", at_byte(chunk.offset));
         if (kind_of(chunk.type) != nullptr || may_be_skipped(chunk.type)) continue;
         Error error = unsupported("a chunk that this library does not know and may not skip", name_of(chunk.type));
-        error.place = at_byte(chunk.begin);
+        error.place = at_byte(chunk.offset);
         return error;
     }
     return Ok{};
@@ -203,9 +203,9 @@ Status StreamReader::check_counts() const
 {
     for (const Kind& kind : kinds) {
         std::size_t count = 0;
-        for (const Chunk& chunk : chunks_) {
+        for (const Index::Entry& chunk : index_.chunks) {
             if (chunk.type != kind.type) continue;
-            if (++count > 1 && !kind.many) return bad_input("a second one", name_of(kind.type), at_byte(chunk.begin));
+            if (++count > 1 && !kind.many) return bad_input("a second one", name_of(kind.type), at_byte(chunk.offset));
         }
         if (count == 0 && kind.required) return missing(kind.type);
     }
@@ -213,16 +213,16 @@ Status StreamReader::check_counts() const
 }
 
 /// The index must say what the walk found, so that a reader that trusts it sees the same file.
-Status StreamReader::check_index() const
+Status StreamReader::check_index()
 {
     MESHREEL_TRY(const Tail tail, read_tail(file_, file_.size()));
     if (tail.index_offset != index_chunk_.begin)
         return bad_input(concat("INDX is at byte ", index_chunk_.begin), "TAIL.index_offset",
                          at_byte(tail_chunk_.offset));
-    MESHREEL_TRY(const Index index, read_fields<Index>(index_chunk_.source(), limits_));
-    bool same = index.chunks.size() == chunks_.size();
+    MESHREEL_TRY(index_, read_fields<Index>(index_chunk_.source(), limits_));
+    bool same = index_.chunks.size() == chunks_.size();
     for (std::size_t i = 0; same && i < chunks_.size(); ++i) {
-        const Index::Entry& entry = index.chunks[i];
+        const Index::Entry& entry = index_.chunks[i];
         same = entry.type == chunks_[i].type && entry.offset == chunks_[i].begin &&
                entry.size == chunks_[i].payload.size();
     }

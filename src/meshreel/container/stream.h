@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "meshreel/base/byte_source.h"
 #include "meshreel/container/fields.h"
 
 namespace meshreel::container {
@@ -151,7 +152,17 @@ public:
     /// unsupported: a later major version, or a chunk that may not be skipped and that we do not know.
     static Result<StreamReader> open(ByteView file, const DecodeLimits& limits = {});
 
+    /// Fetches everything but the segments, on the word of the index: HEAD, TIME, CONN and what travels along, each
+    /// chunk verified. chunks() then has no SEGM. @fails as above; io.
+    static Result<StreamReader> open_head(ByteSource& file, const DecodeLimits& limits = {});
+
+    StreamReader(const StreamReader&) = delete; // views into itself
+    StreamReader(StreamReader&&) = default;
+    StreamReader& operator=(StreamReader&&) = default;
+
     const Preamble& preamble() const { return preamble_; }
+    /// What INDX says: every chunk before it, in file order.
+    const Index& index() const { return index_; }
     /// All chunks but INDX and TAIL, in file order; unknown ones that may be skipped too.
     const std::vector<Chunk>& chunks() const { return chunks_; }
     /// The chunk of a type that occurs at most once; null where it is absent.
@@ -167,20 +178,26 @@ public:
         return read_fields<Struct>(chunk->source(), limits_);
     }
     const DecodeLimits& limits() const { return limits_; }
+    /// All bytes; none after open_head().
     ByteView file() const { return file_; }
     const Chunk& index_chunk() const { return index_chunk_; }
     const Chunk& tail_chunk() const { return tail_chunk_; }
 
 private:
+    StreamReader() = default;
     static Error missing(Tag type);
     Status walk();
     Status check_known() const;
     Status check_counts() const;
-    Status check_index() const;
+    Status check_index();
+    Status fetch_index(ByteSource& file);
+    Status fetch_head(ByteSource& file);
 
     ByteView file_;
+    std::vector<Bytes> fetched_; ///< what chunks_ look into after open_head()
     DecodeLimits limits_;
     Preamble preamble_;
+    Index index_;
     std::vector<Chunk> chunks_;
     Chunk index_chunk_, tail_chunk_;
 };
@@ -189,6 +206,10 @@ private:
 Result<Preamble> read_preamble(ByteView first_bytes);
 /// The last Tail::chunk_size bytes (or more) of a file. @fails bad_input: no tail, or another file size.
 Result<Tail> read_tail(ByteView last_bytes, std::uint64_t file_size);
+/// Bytes of a whole chunk, type to checksum, whose payload has so many.
+std::uint64_t chunk_size(std::uint64_t payload_size);
+/// The chunk that an entry of an index names, from its bytes. @fails bad_input: damaged, or not the one.
+Result<Chunk> read_entry(ByteView bytes, const Index::Entry& entry);
 /// One chunk at the start of `bytes`, which stand at `begin` in the file. @fails bad_input: cut off or damaged.
 Result<Chunk> read_chunk(ByteView bytes, std::uint64_t begin);
 

@@ -1,0 +1,77 @@
+/// Segments out of memory, and out of a file that is read in parts.
+// SPDX-License-Identifier: MIT
+#include "meshreel/container/segments.h"
+
+#include <algorithm>
+
+#include "meshreel/base/text.h"
+#include "meshreel/container/package.h"
+
+namespace meshreel::container {
+
+Result<SegmentList> SegmentList::open(const StreamReader& file, const Header& header)
+{
+    SegmentList list;
+    MESHREEL_TRY(list.segments_, read_segments(file, header));
+    return list;
+}
+
+Result<Segment> SegmentList::holding(std::uint32_t frame)
+{
+    const auto next = std::upper_bound(segments_.begin(), segments_.end(), frame,
+                                       [](std::uint32_t f, const Segment& segment) { return f < segment.first_frame; });
+    return *(next - 1);
+}
+
+SegmentFetcher::SegmentFetcher(ByteSource& file, const StreamReader& head, const Header& header)
+    : file_(file), head_(head), frame_count_(header.frame_count)
+{
+    for (const Index::Entry& entry : head.index().chunks)
+        if (entry.type == type::segm) entries_.push_back(entry);
+}
+
+/// The numbers of segment s, from its first bytes; its checksum waits until all of it is fetched.
+Result<Segment> SegmentFetcher::look(std::size_t s)
+{
+    const auto known = looked_.find(s);
+    if (known != looked_.end()) return known->second;
+    constexpr std::uint64_t longest_head = 4 + 10 + 5 + 5; // type, size, first_frame, frame_count
+    const Index::Entry& entry = entries_[s];
+    const auto size = static_cast<std::size_t>(std::min(longest_head, chunk_size(entry.size)));
+    MESHREEL_TRY(const Bytes bytes, file_.fetch(entry.offset, size));
+    Reader reader({bytes, entry.offset, name_of(entry.type)}, head_.limits());
+    ChunkHead chunk;
+    Segment segment;
+    chunk.fields(reader);
+    segment.fields(reader);
+    if (reader.failed()) return *reader.error();
+    segment.payload = {};
+    return looked_.emplace(s, segment).first->second;
+}
+
+Result<Segment> SegmentFetcher::fetch(std::size_t s)
+{
+    const std::uint64_t size = chunk_size(entries_[s].size);
+    MESHREEL_CHECK(within(size, head_.limits().max_memory, "SEGM"));
+    MESHREEL_TRY(bytes_, file_.fetch(entries_[s].offset, static_cast<std::size_t>(size)));
+    MESHREEL_TRY(const Chunk chunk, read_entry(bytes_, entries_[s]));
+    return read_segment(chunk, head_.limits());
+}
+
+Result<Segment> SegmentFetcher::holding(std::uint32_t frame)
+{
+    std::size_t low = 0, high = entries_.size(); // the segment is in [low, high)
+    while (high - low > 1) {
+        const std::size_t middle = low + (high - low) / 2;
+        MESHREEL_TRY(const Segment segment, look(middle));
+        (segment.first_frame <= frame ? low : high) = middle;
+    }
+    MESHREEL_TRY(const Segment segment, fetch(low));
+    const bool there = segment.first_frame <= frame && frame - segment.first_frame < segment.frame_count &&
+                       segment.frame_count <= frame_count_ - segment.first_frame;
+    if (there) return segment;
+    return bad_input(concat("frame ", frame, " is not where the segments' numbers lead"), "SEGM.first_frame",
+                     at_byte(entries_[low].offset));
+}
+
+} // namespace meshreel::container

@@ -1,0 +1,51 @@
+/// The segments of a file, found by the frames they hold.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "meshreel/container/chunks.h"
+#include "meshreel/container/stream.h"
+
+namespace meshreel::container {
+
+/// Gives the segment that holds a frame.
+class SegmentSource {
+public:
+    virtual ~SegmentSource() = default;
+    /// @param frame  0 .. F-1.  @return the segment, valid until the next call.  @fails bad_input, io.
+    virtual Result<Segment> holding(std::uint32_t frame) = 0;
+};
+
+/// All segments of a file in memory, verified to cover 0 .. F-1. The file must outlive it.
+class SegmentList : public SegmentSource {
+public:
+    static Result<SegmentList> open(const StreamReader& file, const Header& header);
+    Result<Segment> holding(std::uint32_t frame) override;
+
+private:
+    std::vector<Segment> segments_;
+};
+
+/// Segments that are fetched when they are asked for. Which one holds a frame is found by halving, at a few bytes a
+/// look. The file and its head must outlive it.
+class SegmentFetcher : public SegmentSource {
+public:
+    /// head: of StreamReader::open_head(file).
+    SegmentFetcher(ByteSource& file, const StreamReader& head, const Header& header);
+    Result<Segment> holding(std::uint32_t frame) override;
+
+private:
+    Result<Segment> look(std::size_t s);
+    Result<Segment> fetch(std::size_t s);
+
+    ByteSource& file_;
+    const StreamReader& head_;
+    std::uint32_t frame_count_;
+    std::vector<Index::Entry> entries_;     ///< the SEGM of the index
+    std::map<std::size_t, Segment> looked_; ///< what was found out: numbers of frames, no payload
+    Bytes bytes_;                           ///< of the segment fetched last
+};
+
+} // namespace meshreel::container
