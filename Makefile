@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz bench bench-rate format docs clean
+.PHONY: build demo check test fuzz bench bench-rate figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -26,6 +26,12 @@ bench:          ## speeds and memory
 
 bench-rate: build   ## rates at given errors, and bench/ledger.csv
 	bench/rate.py --ledger bench/ledger.csv
+
+figures:        ## the thesis' tables and figures, measured: docs/thesis-figures.md; DATA=FOLDER where the sequences are elsewhere
+	tools/install.sh --with-figures
+	cmake --preset release -DMESHREEL_BUILD_LAB=ON
+	cmake --build build --target meshreel-cli meshreel-lab
+	lab/figures.py $(if $(DATA),--data $(DATA))
 
 format:         ## clang-format on every source
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs from Debian what is missing and asks nothing: for ./demo; --check: for ./check too; --with-blender: Blender for its tests.
+# Installs from Debian what is missing and asks nothing: for ./demo; --check: for ./check too; --with-blender: Blender for its tests;
+# --with-figures: what make figures draws with.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 
@@ -19,7 +20,8 @@ for option in "$@"; do
     case $option in
         --check) want_check=yes; packages+=("${check_packages[@]}") ;;
         --with-blender) packages+=(blender python3-numpy) ;;
-        *) echo "usage: tools/install.sh [--check] [--with-blender]" >&2; exit 1 ;;
+        --with-figures) packages+=(python3-matplotlib) ;;
+        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-figures]" >&2; exit 1 ;;
     esac
 done
 # Whoever has a Node of his own keeps it.
