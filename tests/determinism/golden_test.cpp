@@ -37,6 +37,10 @@ const Golden goldens[] = {
     {"coddyac", "lpc4_range", BasisCoding::lpc4, Entropy::range},
     {"na", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
     {"na", "cobra_range", BasisCoding::cobra, Entropy::range},
+    {"lsp", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
+    {"lsp", "cobra_range", BasisCoding::cobra, Entropy::range},
+    {"rbfp", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
+    {"rbfp", "cobra_range", BasisCoding::cobra, Entropy::range},
 };
 
 /// XXH3-64 of the positions' bits, little-endian, as hexadecimal digits.

@@ -37,7 +37,7 @@ class RemovalJudge {
 public:
     explicit RemovalJudge(MatrixView<const float> C);
 
-    /// The squared prediction error.
+    /// The prediction error: the sum of what is missed of each component, which is what residuals cost.
     template <class Predictor>
     double cost(Predictor& predictor, std::uint32_t v, std::span<const std::uint32_t> ring)
     {
@@ -48,7 +48,7 @@ public:
             const std::span<const double> y = std::span(y_).first(ring.size());
             const double value = C_(v, k), miss = predictor.guess(y) - value;
             predictor.learn(y, value);
-            error += miss * miss;
+            error += miss < 0 ? -miss : miss;
         }
         return error;
     }

@@ -5,13 +5,15 @@
 #include "meshreel/codecs/average.h"
 #include "meshreel/codecs/coddyac.h"
 #include "meshreel/codecs/codec.h"
+#include "meshreel/codecs/lsp.h"
+#include "meshreel/codecs/rbfp.h"
 #include "meshreel/codecs/reel.h"
 
 namespace meshreel::codecs {
 
 std::span<const Codec> all()
 {
-    static const std::array rows{reel(), coddyac(), average()};
+    static const std::array rows{reel(), coddyac(), average(), lsp(), rbfp()};
     return rows;
 }
 

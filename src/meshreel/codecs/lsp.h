@@ -1,0 +1,12 @@
+/// Least squares prediction on a decimated mesh (thesis 8.3.1).
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "meshreel/codecs/codec.h"
+
+namespace meshreel::codecs {
+
+/// The registry's row.
+Codec lsp();
+
+} // namespace meshreel::codecs
