@@ -154,6 +154,22 @@ class House:
                 if MACHINE_PATH.search(line) and "MACHINE_PATH" not in line:
                     self.complain(path, number, "a path of one machine")
 
+    def check_local_names(self):
+        """Names local to a .cpp: unity builds compile the files of a room as one, where two of them must not meet."""
+        owner = {}
+        for path in self.code:
+            if not path.endswith(".cpp") or path.startswith("fuzz/"):
+                continue
+            lines, inside = self.text[path].splitlines(), False
+            for number, line in enumerate(lines, 1):
+                inside = line == "namespace {" or (inside and not line.startswith("} // namespace"))
+                name = local_name(line, lines[number] if number < len(lines) else "") if inside else None
+                if name is None:
+                    continue
+                there = owner.setdefault((os.path.dirname(path), "slow" in path and "tests" in path, name), path)
+                if there != path:
+                    self.complain(path, number, f"{name} is a local name of {there} too")
+
     def check_tests(self):
         """Every source file of the library has a test file of its name, or another that includes its header."""
         included = {w for p in self.code if room_of(p) in ("tests",) for _, w in self.includes(p)}
@@ -163,6 +179,17 @@ class House:
                 room = os.path.dirname(header)
                 if header not in included and not any(os.path.dirname(w) == room for w in included):
                     self.complain(path, 1, "no test includes its header or a header of its room")
+
+
+def local_name(line, following):
+    """What a line at file level names: a constant, a type, a function with its parameter types; or None."""
+    if match := re.match(r"(?:constexpr|const) [\w:<>, ]*?(\w+)(?:\[\w*\])*(?: =|\{)", line):
+        return match[1]
+    if match := re.match(r"(?:struct|class|enum class) (\w+)[^;]*$", line):
+        return match[1]
+    if following == "{" and (match := re.match(r"[\w:<>,&* ]*?(?<!:)\b(\w+)\((.*)\)$", line)):
+        return f"{match[1]}({re.sub(r'(?<=[&*> ])[a-z_]+(?=,|$)', '', match[2])})"
+    return None
 
 
 def parameter_count(signature):
@@ -213,6 +240,7 @@ def main(argv):
     house.check_circles()
     house.check_sizes()
     house.check_machine_paths()
+    house.check_local_names()
     house.check_tests()
     for complaint in sorted(set(house.complaints)):
         print(complaint)

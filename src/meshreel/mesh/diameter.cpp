@@ -13,9 +13,9 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-constexpr std::uint32_t leaf_size = 8;
+constexpr std::uint32_t diameter_leaf = 8;
 
-double squared_distance(const Point& a, const Point& b)
+double square_between(const Point& a, const Point& b)
 {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -40,7 +40,7 @@ struct Box {
             if (high[i] - low[i] > high[longest] - low[longest]) longest = i;
         return longest;
     }
-    double size() const { return squared_distance(low, high); }
+    double size() const { return square_between(low, high); }
 };
 
 /// Not below the computed squared distance of any two points of the boxes: subtraction, square and sum all round
@@ -85,8 +85,8 @@ private:
             before = best_;
             const Point start = from;
             for (const Point& p : points_)
-                if (squared_distance(start, p) > best_) {
-                    best_ = squared_distance(start, p);
+                if (square_between(start, p) > best_) {
+                    best_ = square_between(start, p);
                     from = p;
                 }
         }
@@ -103,7 +103,7 @@ private:
     {
         const auto node = static_cast<std::uint32_t>(nodes_.size());
         nodes_.push_back({Box({points_.data() + first, last - first}), first, last});
-        if (last - first <= leaf_size) return node;
+        if (last - first <= diameter_leaf) return node;
         const std::size_t axis = nodes_[node].box.longest_axis();
         const std::uint32_t middle = first + (last - first) / 2;
         std::nth_element(points_.begin() + first, points_.begin() + middle, points_.begin() + last,
@@ -139,7 +139,7 @@ private:
         for (std::uint32_t i = a.first; i < a.last; ++i) {
             if (bound(Box({&points_[i], 1}), b.box) <= best_) continue;
             for (std::uint32_t j = b.first; j < b.last; ++j)
-                best_ = std::max(best_, squared_distance(points_[i], points_[j]));
+                best_ = std::max(best_, square_between(points_[i], points_[j]));
         }
     }
 
