@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <limits>
 #include <vector>
 
 #include "meshreel/base/random.h"
@@ -95,6 +96,15 @@ TEST(Lsp, CountsNeighboursThatWereEqualSoFarOnce)
     EXPECT_NEAR(predictor.guess(std::vector{4.0, 4.0}), 6.0, 1e-9);
     predictor.learn(std::vector{4.0, 5.0}, 6.0); // now they differ: 2 w1 + 2 w2 = 3, 4 w1 + 5 w2 = 6
     EXPECT_NEAR(predictor.guess(std::vector{1.0, 100.0}), 1.5, 1e-6);
+}
+
+TEST(Lsp, KeepsNeighboursApartThatAreNoNumbers)
+{
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    Lsp predictor(tiny_step);
+    predictor.start(2);
+    predictor.learn(std::vector{none, none}, 1.0);
+    EXPECT_DOUBLE_EQ(predictor.guess(std::vector{1.0, 3.0}), 2.0) << "two neighbours, one row: the average";
 }
 
 TEST(Lsp, ForgetsTheVertexBefore)

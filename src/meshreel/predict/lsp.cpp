@@ -48,7 +48,7 @@ void Lsp::learn(std::span<const double> y, double value)
     ++known_;
     for (std::size_t i = n_; i-- > 0;) {
         std::size_t j = 0;
-        while (first_equal_[j] != first_equal_[i] || y[j] != y[i]) ++j;
+        while (j < i && (first_equal_[j] != first_equal_[i] || y[j] != y[i])) ++j; // what is no number equals nothing
         first_equal_[i] = j;
     }
 }
