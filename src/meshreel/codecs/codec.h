@@ -28,13 +28,7 @@ struct Trial {
     std::uint32_t bases = 0;    ///< K
     double step = 0.0;          ///< D, model units
     double squared_error = 0.0; ///< sum of squared differences over all coordinates, before rounding to float32
-};
-
-/// What an encoding would cost, nearly.
-struct Estimate {
-    std::uint64_t size = 0;     ///< of the payload, bytes
-    std::uint32_t bases = 0;    ///< K
-    double squared_error = 0.0; ///< as in Trial
+    Trajectories decoded;       ///< what the decoder will see, bit for bit
 };
 
 /// A codec at work on one sequence. The sequence must outlive it.
@@ -44,8 +38,8 @@ public:
 
     /// Squared norm of all positions less each frame's centroid: |A - E(A)|^2 of (5.2).
     virtual double energy() const = 0;
-    /// What encode() would give, within a percent or two and several times faster: for searches.
-    virtual Estimate estimate(const Settings& settings) const = 0;
+    /// s_k of all components prepared, falling; s_k^2 is the sum of squared coefficients c_k.
+    virtual std::span<const double> singular_values() const = 0;
     /// The same bytes for any number of threads.
     virtual Trial encode(const Settings& settings) const = 0;
 };

@@ -64,26 +64,14 @@ public:
     {
         const Matrix<double> C = linalg::project(sequence.frames, pca_.mean, pca_.basis.view(), threads).C;
         mean_absolute_ = linalg::mean_absolute(C.view());
-        coefficients_ = Matrix<float>(C.rows, C.cols);
-        std::copy(C.values.begin(), C.values.end(), coefficients_.values.begin());
-        residuals_ = study(sequence_, coefficients_.view());
+        Matrix<float> rounded(C.rows, C.cols);
+        std::copy(C.values.begin(), C.values.end(), rounded.values.begin());
+        residuals_ = study(sequence_, rounded.view());
     }
 
     double energy() const override { return pca_.energy; }
 
-    Estimate estimate(const Settings& settings) const override
-    {
-        CodedBasis coded = code_basis(settings);
-        const std::size_t K = coded.payload.bases;
-        Matrix<double> wanted(coefficients_.rows, K);
-        for (std::size_t v = 0; v < wanted.rows; ++v) std::copy_n(coefficients_.row(v).data(), K, wanted.row(v).data());
-        Matrix<double> C = wanted;
-        const std::size_t size = coded.bits.size() + residuals_->write(coded.payload, C.view()).size();
-        double error = linalg::squared_error_of_basis(pca_, C.rows, coded.basis.mean, coded.basis.rows.view());
-        for (std::size_t i = 0; i < C.values.size(); ++i)
-            error += (wanted.values[i] - C.values[i]) * (wanted.values[i] - C.values[i]);
-        return {size, coded.payload.bases, error};
-    }
+    std::span<const double> singular_values() const override { return pca_.singular_values; }
 
     Trial encode(const Settings& settings) const override
     {
@@ -96,8 +84,13 @@ public:
         coded.payload.residual_bits = residual_bits;
         Result<Bytes> bytes = container::write_fields(coded.payload);
         assert(bytes.ok());
-        return {*std::move(bytes), coded.payload.bases, coded.payload.step,
-                projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), basis)};
+        const double error =
+            projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), basis);
+        return {*std::move(bytes),
+                coded.payload.bases,
+                coded.payload.step,
+                error,
+                {std::move(coded.basis), std::move(projection.C)}};
     }
 
 private:
@@ -128,7 +121,6 @@ private:
     Sequence sequence_;
     linalg::Pca pca_;
     std::vector<double> mean_absolute_; ///< a_i (8.24), [all components]
-    Matrix<float> coefficients_;        ///< C [W x all components] in the exact basis, for estimates
     std::unique_ptr<ResidualWriter> residuals_;
 };
 

@@ -96,28 +96,11 @@ public:
     ReelEncoder(const Sequence& sequence, std::size_t max_bases, Threads threads)
         : sequence_(sequence), pca_(linalg::pca_of_trajectories(sequence.frames, max_bases, threads))
     {
-        const Matrix<double> C = linalg::project(sequence.frames, pca_.mean, pca_.basis.view(), threads).C;
-        coefficients_ = Matrix<float>(C.rows, C.cols);
-        std::copy(C.values.begin(), C.values.end(), coefficients_.values.begin());
     }
 
     double energy() const override { return pca_.energy; }
 
-    Estimate estimate(const Settings& settings) const override
-    {
-        CodedBasis coded = code_basis(settings);
-        const std::size_t K = coded.head.bases;
-        Matrix<double> C(coefficients_.rows, K);
-        for (std::size_t v = 0; v < C.rows; ++v) std::copy_n(coefficients_.row(v).data(), K, C.row(v).data());
-        const CodedCoefficients bits = code_coefficients(coded, settings, C.view());
-        double error = linalg::squared_error_of_basis(pca_, C.rows, coded.basis.mean, coded.basis.rows.view());
-        for (std::size_t v = 0; v < C.rows; ++v)
-            for (std::size_t k = 0; k < K; ++k) {
-                const double difference = C(v, k) - coefficients_(v, k);
-                error += difference * difference;
-            }
-        return {coded.bits.size() + bits.first.size() + bits.levels.size(), coded.head.bases, error};
-    }
+    std::span<const double> singular_values() const override { return pca_.singular_values; }
 
     Trial encode(const Settings& settings) const override
     {
@@ -131,8 +114,13 @@ public:
         coded.head.level_bits = bits.levels;
         Result<Bytes> bytes = container::write_fields(coded.head);
         assert(bytes.ok());
-        return {*std::move(bytes), coded.head.bases, coded.head.step,
-                projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), rows)};
+        const double error =
+            projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), rows);
+        return {*std::move(bytes),
+                coded.head.bases,
+                coded.head.step,
+                error,
+                {std::move(coded.basis), std::move(projection.C)}};
     }
 
 private:
@@ -155,7 +143,7 @@ private:
         coded.head.step = step_of(settings, pca_.singular_values, W);
         coded.head.first_step = settings.first_ratio * coded.head.step;
         coded.head.basis_step = settings.basis_ratio * coded.head.step;
-        coded.head.law = {settings.linear, coded.head.step};
+        coded.head.law = {settings.linear, coded.head.step, settings.growth};
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);
@@ -192,7 +180,6 @@ private:
 
     Sequence sequence_;
     linalg::Pca pca_;
-    Matrix<float> coefficients_; ///< C [W x all components] in the exact basis, for estimates
 };
 
 std::unique_ptr<Encoder> prepare_reel(const Sequence& sequence, std::size_t max_bases, Threads threads)
