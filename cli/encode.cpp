@@ -20,12 +20,12 @@ namespace meshreel::cli {
 
 namespace {
 
-constexpr const char* quality_group = "Quality (default: --max-error 0.05%)";
+constexpr const char* quality_group = "Quality, one of these (default: visually lossless, STED 0.02)";
 constexpr const char* coding_group = "Coding";
 
 /// What encode's options ask for, as texts; the table of the codec's own words.
 struct Choices {
-    std::string order = "keep", basis = "cobra", entropy = "range", codec = "coddyac";
+    std::string order = "keep", basis = "cobra", entropy = "range", codec = "reel", tune;
 
     Order order_value(bool has_base) const
     {
@@ -35,6 +35,10 @@ struct Choices {
     {
         const auto place = std::find(basis_coding_names.begin(), basis_coding_names.end(), basis);
         return static_cast<BasisCoding>(place - basis_coding_names.begin());
+    }
+    std::optional<Tune> tune_value() const
+    {
+        return tune.empty() ? std::nullopt : std::optional(tune == "sted" ? Tune::sted : Tune::kg);
     }
     Entropy entropy_value() const { return entropy == "huffman" ? Entropy::huffman : Entropy::range; }
 };
@@ -98,13 +102,32 @@ private:
             add_parsed(app, {"--max-error", "no vertex is ever farther off: percent of the body diagonal, or units"},
                        max_error_, parse_amount);
         error->type_name("X%|X")->group(quality_group);
-        auto* const kg = app.add_option("--kg", kg_, "KG error of at most this many percent");
-        kg->check(positive())->type_name("X")->group(quality_group)->excludes(error);
-        auto* const bases = app.add_option("--bases", bases_, "eigentrajectories, by hand");
-        bases->check(positive())->type_name("K")->group(quality_group);
-        auto* const step = app.add_option("--step", step_, "coefficient step, by hand: fraction of the body diagonal");
-        step->check(positive())->type_name("X")->group(quality_group);
-        for (CLI::Option* by_hand : {bases, step}) by_hand->excludes(error)->excludes(kg);
+        std::vector<CLI::Option*> targets = {error};
+        const auto target = [&](const char* name, std::optional<double>& value, const char* help) {
+            targets.push_back(app.add_option(name, value, help)->check(positive())->type_name("X"));
+        };
+        target("--kg", quality_.kg, "KG error of at most this many percent");
+        target("--sted", quality_.sted, "STED of at most this");
+        target("--psnr", quality_.psnr, "PSNR of at least so many dB");
+        target("--bpfv", quality_.bpfv, "as good as so many bits a frame and vertex allow");
+        targets.push_back(
+            add_parsed(app, {"--size", "as good as a file of so many bytes allows: 500k, 2M"}, size_, parse_memory)
+                ->type_name("SIZE"));
+        const std::vector<CLI::Option*> by_hand = {
+            app.add_option("--bases", quality_.bases, "eigentrajectories, by hand")->check(positive())->type_name("K"),
+            app.add_option("--step", quality_.step, "coefficient step, by hand: fraction of the body diagonal")
+                ->check(positive())
+                ->type_name("X")};
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            targets[i]->group(quality_group);
+            for (std::size_t j = 0; j < i; ++j) targets[i]->excludes(targets[j]);
+            for (CLI::Option* hand : by_hand) targets[i]->excludes(hand);
+        }
+        for (CLI::Option* hand : by_hand) hand->group(quality_group);
+        app.add_option("--tune", choices_.tune, "what to look best by; default: what the target measures, else kg")
+            ->check(one_of({"kg", "sted"}))
+            ->type_name("kg|sted")
+            ->group(quality_group);
     }
 
     void declare_coding(CLI::App& app)
@@ -119,6 +142,12 @@ private:
         };
         choice("--order", choices_.order, {"keep", "free"},
                "vertex and triangle order: kept, or dropped for a smaller file");
+        app.add_option("-e,--effort", effort_, "1 encodes fastest, 9 makes the smallest file")
+            ->check(CLI::Range(tune::least_effort, tune::most_effort))
+            ->capture_default_str()
+            ->type_name("1..9")
+            ->group(coding_group);
+        app.add_flag("--fast-decode", fast_decode_, "opens faster, some percent larger")->group(coding_group);
         choice("--basis", choices_.basis, {basis_coding_names.begin(), basis_coding_names.end()},
                "how the basis is coded");
         choice("--entropy", choices_.entropy, {"huffman", "range"}, "how residuals become bits");
@@ -136,11 +165,13 @@ private:
     {
         EncodeOptions all;
         all.codec = choices_.codec;
-        all.quality.kg = kg_;
+        all.quality = quality_;
+        if (size_ > 0) all.quality.size = size_;
         if (max_error_.value > 0.0)
             (max_error_.percent ? all.quality.max_error_relative : all.quality.max_error) = max_error_.value;
-        all.quality.bases = bases_;
-        all.quality.step = step_;
+        all.tune = choices_.tune_value();
+        all.effort = effort_;
+        all.fast_decode = fast_decode_;
         all.order = choices_.order_value(!source_.base.empty());
         all.base = source_.base.empty() ? nullptr : &base;
         all.basis = choices_.basis_value();
@@ -165,6 +196,9 @@ private:
         figures["kg"] = number(encoded.kg);
         figures["max_error"] = number(encoded.max_error);
         figures["max_error_relative"] = number(diagonal > 0.0 ? 100.0 * encoded.max_error / diagonal : 0.0);
+        figures["psnr"] = number(encoded.psnr);
+        figures["sted"] = encoded.sted ? number(*encoded.sted) : Json(nullptr);
+        figures["effort"] = effort_;
         figures["bases"] = encoded.bases;
         figures["step"] = number(encoded.step);
     }
@@ -179,6 +213,8 @@ private:
                             human_bytes(value("reel_bytes")), value("bpfv"));
         text += fmt::format("  KG error {:.4g} %, largest error {:.4g} units = {:.4g} % of the diagonal\n", value("kg"),
                             value("max_error"), value("max_error_relative"));
+        text += fmt::format("  PSNR {:.4g} dB", value("psnr"));
+        text += figures["sted"].is_null() ? "\n" : fmt::format(", STED {:.4g}\n", value("sted"));
         return text + fmt::format("  {} bases, step {:.4g}; {:.2f} s, at most {} of memory\n", value("bases"),
                                   value("step"), value("seconds"), human_bytes(value("peak_memory_bytes")));
     }
@@ -186,8 +222,10 @@ private:
     Source source_;
     Target target_;
     Amount max_error_;
-    std::optional<double> kg_, step_;
-    std::optional<std::uint32_t> bases_;
+    Quality quality_;
+    std::uint64_t size_ = 0;
+    int effort_ = tune::usual_effort;
+    bool fast_decode_ = false;
     std::uint32_t segment_ = 0;
     Choices choices_;
 };

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "meshreel/base/text.h"
 #include "meshreel/codecs/codec.h"
 #include "meshreel/connectivity/topology.h"
 #include "meshreel/container/package.h"
+#include "meshreel/goal.h"
 #include "meshreel/mesh/reorder.h"
 #include "meshreel/mesh/weld.h"
 #include "meshreel/meshreel.h"
 #include "meshreel/metrics/kg.h"
+#include "meshreel/metrics/sted.h"
 #include "meshreel/metrics/vertex_error.h"
+#include "meshreel/tune/meter.h"
 #include "meshreel/tune/search.h"
 #include "meshreel/version.h"
 
@@ -21,6 +25,7 @@ namespace meshreel {
 namespace {
 
 constexpr std::size_t usual_segment = 1000; // frames at most; the PCA grows with the cube of a segment's length
+constexpr std::uint32_t fast_growth = 1000; // weights are found once a level
 constexpr std::size_t usual_bases = 256;    // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
@@ -55,34 +60,36 @@ public:
         frames_ = Matrix<float>(animation.frame_count(), 3 * W);
         for (std::size_t f = 0; f < frames_.rows; ++f)
             reorder_frame(animation.frame(f), topology_.original_of, frames_.row(f));
+        for (const FrameSpan& segment : segments_)
+            meters_.emplace_back(frames(segment), surface().triangles, options.threads);
         prepare(usual_bases);
+        allowed_ = allowed_by(options.quality, animation, diagonal());
+        if (std::isfinite(allowed_.kg) && norm() == 0) // every frame a point: nothing that KG could be a percentage of
+            allowed_.max_error = std::exchange(allowed_.kg, no_limit) / 100 * diagonal();
+        plan_ = tune::plan_of(options.effort, tune());
     }
 
-    /// The smallest file found that keeps the quality asked for.
+    /// The smallest file found that keeps the quality asked for, or the best one of the size asked for.
     Result<Encoded> encode()
     {
-        const Quality& quality = options_.quality;
-        if (quality.bases || quality.step) {
-            try_settings(by_hand());
-            return finished();
+        if (options_.quality.bases || options_.quality.step) {
+            MESHREEL_TRY(const tune::Attempt attempt, attempted(by_hand()));
+            return finished(attempt);
         }
-        by_kg_ = quality.kg && norm() > 0;
-        target_ = by_kg_ ? *quality.kg : largest_allowed();
-        MESHREEL_TRY(codecs::Settings settings, found());
-        // The search measures in surface order and before rounding; what counts is measured on the file. Where the two
-        // differ, the step aims anew.
-        double aim = target_;
-        for (int turn = 0; turn < 6; ++turn) {
-            MESHREEL_TRY(const auto best, tune::coarsest(problem(aim, false), settings));
-            if (!best) break;
-            settings = best->settings;
-            try_settings(settings);
-            MESHREEL_TRY(Encoded encoded, finished());
-            const double reached = by_kg_ ? encoded.kg : encoded.max_error;
-            if (reached <= target_) return encoded;
-            aim *= 0.998 * target_ / reached;
-        }
-        return Error{ErrorCode::missed, concat("the decoded file stays above the target of ", target_), {}, {}, {}};
+        std::optional<Encoded> best;
+        tune::Problem problem{
+            [&](const codecs::Settings& settings) { return attempted(settings); },
+            [&](const tune::Attempt& attempt) { return verified(attempt, best); },
+            !limits_size(),
+            plan_.knobs,
+            plan_.rounds,
+            options_.progress,
+        };
+        codecs::Settings start = common();
+        start.step = likely_step(start);
+        const Result<tune::Attempt> found = tune::cheapest(problem, start);
+        if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
+        return *std::move(best);
     }
 
 private:
@@ -115,23 +122,22 @@ private:
         return length > 0 ? length : 1.0;
     }
 
-    double largest_allowed() const
+    Tune tune() const
     {
-        const Quality& quality = options_.quality;
-        constexpr double usual_percent = 0.05;
-        if (quality.max_error) return *quality.max_error;
-        const double percent = quality.max_error_relative ? *quality.max_error_relative
-                               : quality.kg               ? *quality.kg
-                                                          : usual_percent;
-        return percent / 100 * diagonal();
+        const bool sees = options_.quality.sted || (std::isfinite(allowed_.sted) && !options_.quality.kg);
+        return options_.tune.value_or(sees ? Tune::sted : Tune::kg);
     }
+
+    bool limits_size() const { return std::isfinite(allowed_.bytes); }
+    bool wants_sted() const { return std::isfinite(allowed_.sted) || (limits_size() && tune() == Tune::sted); }
 
     codecs::Settings common() const
     {
-        codecs::Settings settings;
+        codecs::Settings settings = plan_.start;
         settings.basis = options_.basis;
         settings.entropy = options_.entropy;
         settings.threads = options_.threads;
+        if (options_.fast_decode) settings.growth = std::max(settings.growth, fast_growth);
         return settings;
     }
 
@@ -144,103 +150,114 @@ private:
         return settings;
     }
 
-    /// Encodes all segments; keeps the payloads.
-    void try_settings(const codecs::Settings& settings)
-    {
-        payloads_.clear();
-        tried_ = {};
-        for (const auto& encoder : encoders_) {
-            codecs::Trial trial = encoder->encode(settings);
-            tried_.squared_error += trial.squared_error;
-            tried_.bases = std::max(tried_.bases, trial.bases);
-            tried_.step = std::max(tried_.step, trial.step);
-            payloads_.push_back(std::move(trial.payload));
-        }
-    }
-
-    std::uint64_t payload_size() const
-    {
-        std::uint64_t size = 0;
-        for (const Bytes& payload : payloads_) size += payload.size();
-        return size;
-    }
-
-    /// Decodes the payloads into surface order.
-    Result<Matrix<float>> rebuilt() const
-    {
-        Matrix<float> result(frames_.rows, frames_.cols);
-        for (std::size_t s = 0; s < segments_.size(); ++s) {
-            const MatrixView<float> part{result.values.data() + segments_[s].first * result.cols, segments_[s].count,
-                                         result.cols};
-            MESHREEL_CHECK(codecs::decode(
-                codec_, {{payloads_[s], 0, "SEGM"}, surface(), segments_[s].count, DecodeLimits{}, options_.threads},
-                part));
-        }
-        return result;
-    }
-
-    double kg_of(double squared_error) const { return 100 * std::sqrt(squared_error) / norm(); } // (5.2)
-
-    tune::Attempt estimated(const codecs::Settings& settings) const
-    {
-        tune::Attempt attempt{settings, 0, 0.0};
-        double squared_error = 0;
-        attempt.settings.bases = 0;
-        for (const auto& encoder : encoders_) {
-            const codecs::Estimate estimate = encoder->estimate(settings);
-            attempt.size += estimate.size;
-            squared_error += estimate.squared_error;
-            attempt.settings.bases = std::max(*attempt.settings.bases, estimate.bases);
-        }
-        attempt.distortion = kg_of(squared_error);
-        return attempt;
-    }
-
+    /// Encodes all segments and measures what the decoder will see, nearly: in surface order, before rounding.
     Result<tune::Attempt> attempted(const codecs::Settings& settings)
     {
-        try_settings(settings);
-        tune::Attempt attempt{settings, payload_size(), kg_of(tried_.squared_error)};
-        attempt.settings.bases = tried_.bases;
-        if (by_kg_) return attempt;
-        MESHREEL_TRY(const Matrix<float> decoded, rebuilt());
-        attempt.distortion = largest_distance({frames_view(), decoded.view(), {}});
+        tune::Attempt attempt;
+        attempt.settings = settings;
+        double squared_error = 0, sted = 0;
+        Measures reached;
+        for (std::size_t s = 0; s < encoders_.size(); ++s) {
+            codecs::Trial trial = encoders_[s]->encode(settings);
+            if (trial.bases == max_bases_ && !settings.bases && max_bases_ < most_bases()) {
+                prepare(std::min(4 * max_bases_, most_bases()));
+                return attempted(settings);
+            }
+            squared_error += trial.squared_error;
+            if (std::isfinite(allowed_.max_error))
+                reached.max_error = std::max(reached.max_error, meters_[s].largest_distance(trial.decoded));
+            if (wants_sted()) sted += static_cast<double>(segments_[s].count) * meters_[s].sted(trial.decoded);
+            attempt.bases = std::max(attempt.bases, trial.bases);
+            attempt.step = std::max(attempt.step, trial.step);
+            attempt.payloads.push_back(std::move(trial.payload));
+        }
+        reached.kg = norm() > 0 ? 100 * std::sqrt(squared_error) / norm() : 0.0; // (5.2)
+        reached.rms = std::sqrt(squared_error / (static_cast<double>(frames_.values.size()) / 3));
+        reached.sted = sted / static_cast<double>(frames_.rows);
+        MESHREEL_TRY(reached.bytes, file_size(attempt.payloads));
+        attempt.excess = excess_of(reached, allowed_);
+        attempt.cost = !limits_size() ? reached.bytes : tune() == Tune::sted ? reached.sted : reached.rms;
         return attempt;
     }
 
-    /// A search for the KG error goes by estimates if that will do; the largest error needs the decoded positions.
-    tune::Problem problem(double target, bool estimates)
+    /// Of the file that these payloads make.
+    Result<double> file_size(const std::vector<Bytes>& payloads)
     {
-        const auto attempt = [this, estimates](const codecs::Settings& settings) -> Result<tune::Attempt> {
-            return estimates && by_kg_ ? Result<tune::Attempt>(estimated(settings)) : attempted(settings);
-        };
-        if (by_kg_) return {attempt, target, {0.65}, true, options_.progress};
-        return {attempt, target, {0.65, 0.3, 0.15, 0.07, 0.03}, false, options_.progress};
-    }
-
-    MatrixView<const float> frames_view() const { return frames_.view(); }
-
-    double largest_distance(const metrics::Pair<float>& pair) const
-    {
-        return std::sqrt(metrics::vertex_error(pair, options_.threads).largest_square);
-    }
-
-    /// The settings of the smallest file, nearly; with more bases prepared where the usual ones are too few.
-    Result<codecs::Settings> found()
-    {
-        codecs::Settings start = common();
-        const double typical = norm() / std::sqrt(static_cast<double>(frames_.values.size()));
-        start.step = by_kg_ ? target_ / 100 * typical * 6 : target_;
-        Result<tune::Attempt> best = tune::smallest(problem(target_, true), start);
-        const std::size_t all_bases = std::min<std::size_t>(3 * segments_.back().count, surface().vertex_count);
-        if (!best.ok() && best.error().code == ErrorCode::missed && max_bases_ < all_bases) {
-            prepare(all_bases);
-            best = tune::smallest(problem(target_, true), start);
+        double size = 0;
+        for (const Bytes& payload : payloads) size += static_cast<double>(payload.size());
+        if (!around_) {
+            MESHREEL_TRY(const Bytes file, assembled(payloads));
+            around_ = static_cast<double>(file.size()) - size;
         }
-        MESHREEL_TRY(const tune::Attempt attempt, std::move(best));
-        return attempt.settings;
+        return *around_ + size;
     }
 
-    Result<Bytes> assembled() const
+    /// The excess of the decoded file. Keeps the file where it is the best one yet.
+    Result<double> verified(const tune::Attempt& attempt, std::optional<Encoded>& best) const
+    {
+        MESHREEL_TRY(Encoded encoded, finished(attempt));
+        const double excess = excess_of(reached_by(encoded), allowed_);
+        if (excess <= 1.0 && (!best || excess > excess_of(reached_by(*best), allowed_))) best = std::move(encoded);
+        return excess;
+    }
+
+    Measures reached_by(const Encoded& encoded) const
+    {
+        return {encoded.kg, diagonal() * std::pow(10.0, -encoded.psnr / 20), encoded.max_error,
+                encoded.sted.value_or(0.0), static_cast<double>(encoded.bytes.size())};
+    }
+
+    Error missed() const
+    {
+        return {ErrorCode::missed,
+                limits_size()
+                    ? concat("no setting of the codec fits into ", static_cast<std::uint64_t>(allowed_.bytes),
+                             " bytes, of which ", static_cast<std::uint64_t>(around_.value_or(0.0)), " are not motion")
+                    : "no setting of the codec keeps the quality asked for",
+                {},
+                {},
+                {}};
+    }
+
+    std::size_t most_bases() const { return std::min<std::size_t>(3 * segments_.back().count, surface().vertex_count); }
+
+    /// The step at which the error should be about what is allowed.
+    double likely_step(const codecs::Settings& settings) const
+    {
+        constexpr double kg_of_sizes = 0.3, peak = 7.0, smoothness = 5.0; // guesses: an attempt corrects them
+        const double points = static_cast<double>(frames_.values.size()) / 3;
+        double rms = limits_size() ? kg_of_sizes / 100 * norm() / std::sqrt(points) : no_limit;
+        rms = std::min({rms, allowed_.kg / 100 * norm() / std::sqrt(points), allowed_.rms, allowed_.max_error / peak});
+        if (std::isfinite(allowed_.sted))
+            rms = std::min(rms, smoothness * allowed_.sted * tune::mean_edge(frames_.row(0), surface().triangles));
+        if (!(rms > 0)) return diagonal() * 1e-4;
+        double fine = std::log(1e-9 * diagonal()), coarse = std::log(diagonal());
+        for (int i = 0; i < 40; ++i) {
+            const double middle = 0.5 * (fine + coarse);
+            (likely_error(settings, std::exp(middle)) < rms * rms * points ? fine : coarse) = middle;
+        }
+        return std::exp(fine);
+    }
+
+    /// The squared error at a step: of coefficients and basis, half of D^2 / 12 a value as most levels are 0; and what
+    /// the components left out hold.
+    double likely_error(const codecs::Settings& settings, double step) const
+    {
+        const double W = surface().vertex_count, basis = settings.basis_ratio * settings.basis_ratio;
+        double error = 0;
+        for (std::size_t s = 0; s < encoders_.size(); ++s) {
+            double left = encoders_[s]->energy();
+            for (double value : encoders_[s]->singular_values()) {
+                if (value < settings.truncation * step * std::sqrt(W)) break;
+                error += (W + 3 * static_cast<double>(segments_[s].count) * basis) * step * step / 24;
+                left -= value * value;
+            }
+            error += std::max(left, 0.0);
+        }
+        return error;
+    }
+
+    Result<Bytes> assembled(const std::vector<Bytes>& payloads) const
     {
         container::Header header;
         header.codec = codec_.name;
@@ -263,27 +280,30 @@ private:
         for (std::size_t s = 0; s < segments_.size(); ++s)
             MESHREEL_CHECK(file.add(container::type::segm,
                                     container::Segment{static_cast<std::uint32_t>(segments_[s].first),
-                                                       static_cast<std::uint32_t>(segments_[s].count), payloads_[s]}));
+                                                       static_cast<std::uint32_t>(segments_[s].count), payloads[s]}));
         return std::move(file).finish();
     }
 
-    /// The file of the present payloads, decoded again and measured in the original order.
-    Result<Encoded> finished() const
+    /// The file of an attempt, decoded again and measured in the original order.
+    Result<Encoded> finished(const tune::Attempt& attempt) const
     {
         Encoded encoded;
         DecodeOptions verification;
         verification.base = options_.base;
         verification.threads = options_.threads;
-        MESHREEL_TRY(encoded.bytes, assembled());
+        MESHREEL_TRY(encoded.bytes, assembled(attempt.payloads));
         MESHREEL_TRY(Animation decoded, decode(encoded.bytes, verification));
         if (options_.order == Order::free) put_back(decoded);
         decoded.triangles = animation_.triangles;
         encoded.kg = metrics::kg_error(animation_, decoded, options_.threads);
-        encoded.max_error = largest_distance(metrics::pair_of(animation_, decoded));
+        const metrics::VertexError error = metrics::vertex_error(animation_, decoded, options_.threads);
+        encoded.max_error = std::sqrt(error.largest_square);
+        encoded.psnr = 10 * std::log10(diagonal() * diagonal() / error.mean_square); // (5.1)
+        if (wants_sted()) encoded.sted = metrics::sted_error(animation_, decoded, options_.threads);
         encoded.bpfv = 8.0 * static_cast<double>(encoded.bytes.size()) /
                        (static_cast<double>(animation_.frame_count()) * animation_.vertex_count); // (9.1)
-        encoded.bases = tried_.bases;
-        encoded.step = tried_.step / diagonal();
+        encoded.bases = attempt.bases;
+        encoded.step = attempt.step / diagonal();
         return encoded;
     }
 
@@ -306,25 +326,16 @@ private:
     Matrix<float> frames_; ///< [F x 3W] in surface order
     std::vector<std::unique_ptr<codecs::Encoder>> encoders_;
     std::size_t max_bases_ = 0;
-    bool by_kg_ = true;
-    double target_ = 0.0; ///< KG error in percent, or largest error in model units
-
-    std::vector<Bytes> payloads_; ///< of the latest attempt, one a segment
-    codecs::Trial tried_;         ///< sums and extremes of it
+    std::vector<tune::Meter> meters_; ///< one a segment
+    std::optional<double> around_;    ///< bytes of a file that are not payload
+    Measures allowed_;
+    tune::Plan plan_;
 };
 
-Status check_quality(const Quality& quality)
+Status check_effort(int effort)
 {
-    int targets = 0;
-    for (const std::optional<double>& target : {quality.kg, quality.max_error, quality.max_error_relative}) {
-        targets += target.has_value();
-        if (target && !(*target > 0 && std::isfinite(*target))) return usage("a quality target must be above 0");
-    }
-    const bool by_hand = quality.bases || quality.step;
-    if (targets + by_hand > 1) return usage("ask for one of kg, max_error, max_error_relative, or bases and step");
-    if (quality.step && !(*quality.step > 0 && std::isfinite(*quality.step))) return usage("step must be above 0");
-    if (quality.bases && *quality.bases == 0) return usage("bases must be above 0");
-    return Ok{};
+    if (effort >= tune::least_effort && effort <= tune::most_effort) return Ok{};
+    return usage(concat("effort must be ", tune::least_effort, " to ", tune::most_effort, ", not ", effort));
 }
 
 Status check_base(const Animation& animation, const EncodeOptions& options)
@@ -346,6 +357,7 @@ Result<Encoded> encode(const Animation& animation, const EncodeOptions& options)
 {
     MESHREEL_CHECK(validate(animation));
     MESHREEL_CHECK(check_quality(options.quality));
+    MESHREEL_CHECK(check_effort(options.effort));
     MESHREEL_CHECK(check_base(animation, options));
     const codecs::Codec* codec = codecs::find(options.codec);
     if (codec == nullptr) return usage(concat("there is no codec \"", options.codec, "\""));

@@ -16,22 +16,31 @@
 #include "meshreel/io/io.h"
 #include "meshreel/mesh/animation.h"
 #include "meshreel/metrics/metric.h"
+#include "meshreel/tune/effort.h"
 
 namespace meshreel {
 
-/// The quality asked for: at most one of the targets, or bases and step by hand. Nothing set: max_error = 0.05 %.
+/// The quality asked for: at most one of the targets, or bases and step by hand. Each target is met, and verified on the
+/// decoded file; where the data allow, within 3 % of it. Nothing set: visually lossless, docs/quality.md.
 struct Quality {
-    std::optional<double> kg;                 ///< KG error in percent, > 0 (thesis (5.2))
+    std::optional<double> kg;                 ///< KG error of at most so many percent, > 0 (thesis (5.2))
+    std::optional<double> sted;               ///< STED of at most this, > 0 (thesis 7.3)
     std::optional<double> max_error;          ///< largest distance of any vertex in any frame, model units, > 0
     std::optional<double> max_error_relative; ///< the same in percent of the first frame's body diagonal, > 0
+    std::optional<double> psnr;               ///< PSNR of at least so many dB, > 0, as metrics::psnr has it
+    std::optional<std::uint64_t> size;        ///< a file of at most so many bytes, > 0, as good as possible
+    std::optional<double> bpfv;               ///< the same in bits a frame and vertex, > 0 (thesis (9.1))
     std::optional<std::uint32_t> bases;       ///< K, the number of eigentrajectories, > 0; none: as the step suggests
     std::optional<double> step;               ///< quantisation step of the coefficients as a fraction of the body
                                               ///< diagonal, > 0; none: as the number of bases suggests
 };
 
 struct EncodeOptions {
-    std::string codec = "coddyac";
+    std::string codec = "reel";
     Quality quality;
+    std::optional<Tune> tune; ///< what should look best; none: what the target measures, STED where there is none
+    int effort = tune::usual_effort; ///< 1 fastest .. 9 smallest, docs/effort.md
+    bool fast_decode = false;        ///< opens several times faster, some percent larger (reel)
     Order order = Order::keep;
     const Animation* base = nullptr; ///< for Order::base: V and triangles that the reader will have
     BasisCoding basis = BasisCoding::cobra;
@@ -46,12 +55,14 @@ inline constexpr std::uint32_t one_segment = 0xffffffff;
 
 /// What an encoding reached, measured on the decoded file.
 struct Encoded {
-    Bytes bytes;             ///< the whole .reel file
-    double bpfv = 0.0;       ///< bits of the whole file over F V (9.1)
-    double kg = 0.0;         ///< KG error, percent
-    double max_error = 0.0;  ///< model units
-    std::uint32_t bases = 0; ///< K
-    double step = 0.0;       ///< coefficient step, fraction of the body diagonal
+    Bytes bytes;                ///< the whole .reel file
+    double bpfv = 0.0;          ///< bits of the whole file over F V (9.1)
+    double kg = 0.0;            ///< KG error, percent
+    double max_error = 0.0;     ///< model units
+    double psnr = 0.0;          ///< dB; infinite where nothing was lost
+    std::optional<double> sted; ///< where it was asked for, by target or tune
+    std::uint32_t bases = 0;    ///< K
+    double step = 0.0;          ///< coefficient step, fraction of the body diagonal
 };
 
 struct DecodeOptions {

@@ -9,58 +9,108 @@ using namespace meshreel;
 
 namespace {
 
-/// Distortion grows with the step and falls with K; size grows as the step shrinks and with K.
-Result<tune::Attempt> model(const codecs::Settings& wanted)
-{
-    codecs::Settings settings = wanted;
-    if (!settings.bases)
-        settings.bases = static_cast<std::uint32_t>(4.0 / (settings.truncation * std::sqrt(settings.step)));
-    const double K = *settings.bases;
-    const double distortion = std::hypot(settings.step * std::sqrt(K) * 0.3, 2.0 / (K * K));
-    const double bits = K * (10.0 + std::log2(1.0 / settings.step)) * 1000.0;
-    return tune::Attempt{settings, static_cast<std::uint64_t>(bits), distortion};
-}
+/// Distortion grows with the step and falls with K, which the truncation decides; size grows as the step shrinks and
+/// with K.
+struct Model {
+    double target = 0.01;
+    double bias = 1.0; ///< verified excess over the attempt's
+    bool limits_size = false;
+    int attempts = 0, verifications = 0;
 
-tune::Problem problem(double target)
-{
-    return {model, target, {0.65}, true, {}};
-}
+    Result<tune::Attempt> attempt(const codecs::Settings& settings)
+    {
+        ++attempts;
+        const double K = 4.0 / (settings.truncation * std::sqrt(settings.step));
+        const double distortion = std::hypot(settings.step * std::sqrt(K) * 0.3, 2.0 / (K * K));
+        const double bits = K * (10.0 + std::log2(1.0 / settings.step)) * 1000.0;
+        tune::Attempt result;
+        result.settings = settings;
+        result.excess = (limits_size ? bits : distortion) / target;
+        result.cost = limits_size ? distortion : bits;
+        return result;
+    }
+    tune::Problem problem()
+    {
+        return {[this](const codecs::Settings& settings) { return attempt(settings); },
+                [this](const tune::Attempt& attempt) {
+                    ++verifications;
+                    return Result<double>(bias * Model(*this).attempt(attempt.settings)->excess);
+                },
+                !limits_size};
+    }
+};
+
+const tune::Knob truncation{&codecs::Settings::truncation, 1.3, 0.01, 10.0};
 
 } // namespace
 
 TEST(Search, EndsCloseBelowTheTarget)
 {
     for (double target : {0.3, 0.1, 0.01, 0.001}) {
-        const auto best = tune::smallest(problem(target), {.step = 1.0});
+        Model model{.target = target};
+        const auto best = tune::cheapest(model.problem(), {.step = 1.0});
         ASSERT_TRUE(best.ok());
-        EXPECT_LE(best->distortion, target);
-        EXPECT_GE(best->distortion, 0.97 * target);
+        EXPECT_LE(best->excess, 1.0);
+        EXPECT_GE(best->excess, 0.97);
     }
 }
 
-TEST(Search, FindsASmallerFileThanTheFirstGuessOfBases)
+TEST(Search, FillsASizeAsWell)
 {
-    tune::Problem rough = problem(0.01);
-    rough.refine = false;
-    EXPECT_LT(tune::smallest(problem(0.01), {.step = 1.0})->size, tune::smallest(rough, {.step = 1.0})->size);
+    Model model{.target = 200'000, .limits_size = true};
+    const auto best = tune::cheapest(model.problem(), {.step = 1.0});
+    ASSERT_TRUE(best.ok());
+    EXPECT_LE(best->excess, 1.0);
+    EXPECT_GE(best->excess, 0.97);
+}
+
+TEST(Search, NeedsFewAttemptsFromAFairGuess)
+{
+    Model model;
+    const auto best = tune::cheapest(model.problem(), {.step = 0.02});
+    ASSERT_TRUE(best.ok());
+    EXPECT_LE(model.attempts, 5);
+    EXPECT_EQ(model.verifications, 1);
+}
+
+TEST(Search, TakesVerificationForTheTruth)
+{
+    for (double bias : {0.9, 1.1}) {
+        Model model{.bias = bias};
+        const auto best = tune::cheapest(model.problem(), {.step = 1.0});
+        ASSERT_TRUE(best.ok());
+        const double truth = bias * model.attempt(best->settings)->excess;
+        EXPECT_LE(truth, 1.0);
+        EXPECT_GE(truth, 0.97);
+    }
+}
+
+TEST(Search, FindsASmallerFileWithAKnobThanWithout)
+{
+    Model plain, varied;
+    tune::Problem problem = varied.problem();
+    problem.knobs = {truncation};
+    problem.rounds = 3;
+    const codecs::Settings far_off{.step = 0.02, .truncation = 3.0};
+    EXPECT_LT(tune::cheapest(problem, far_off)->cost, 0.98 * tune::cheapest(plain.problem(), far_off)->cost);
 }
 
 TEST(Search, SaysSoWhenNoStepReachesTheTarget)
 {
-    tune::Problem stuck = problem(0.01);
+    Model model;
+    tune::Problem stuck = model.problem();
     stuck.attempt = [](const codecs::Settings& settings) -> Result<tune::Attempt> {
-        tune::Attempt attempt{settings, 100, 1.0};
-        attempt.settings.bases = 3;
-        return attempt;
+        return tune::Attempt{settings, 100.0, 1.0, {}, 3, 1.0};
     };
-    const auto best = tune::smallest(stuck, {.step = 1.0});
+    const auto best = tune::cheapest(stuck, {.step = 1.0});
     ASSERT_FALSE(best.ok());
     EXPECT_EQ(best.error().code, ErrorCode::missed);
 }
 
 TEST(Search, HandsOnTheErrorOfAnAttempt)
 {
-    tune::Problem broken = problem(0.01);
+    Model model;
+    tune::Problem broken = model.problem();
     broken.attempt = [](const codecs::Settings&) -> Result<tune::Attempt> { return bad_input("no good"); };
-    EXPECT_EQ(tune::smallest(broken, {.step = 1.0}).error().message, "no good");
+    EXPECT_EQ(tune::cheapest(broken, {.step = 1.0}).error().message, "no good");
 }

@@ -198,23 +198,6 @@ Projection project(MatrixView<const float> frames, std::span<const double> mean,
     return result;
 }
 
-double squared_error_of_basis(const Pca& pca, std::size_t vertex_count, std::span<const double> mean,
-                              MatrixView<const double> basis)
-{
-    const auto K = static_cast<Index>(basis.rows), n = static_cast<Index>(basis.cols);
-    const auto all = static_cast<Index>(pca.basis.rows);
-    const Eigen::Map<const Eigen::VectorXd> decoded_mean(mean.data(), n), true_mean(pca.mean.data(), n);
-    const Eigen::VectorXd shift = true_mean - decoded_mean;
-    const double energy = pca.energy + static_cast<double>(vertex_count) * shift.squaredNorm();
-    if (K == 0) return energy;
-    const Eigen::Map<const RowMajor> decoded(basis.data, K, n), B(pca.basis.values.data(), all, n);
-    const Eigen::Map<const Eigen::VectorXd> s(pca.singular_values.data(), all);
-    Columns inner(K, all + 1); // B' X, X being all coefficients along B and the shift of the mean
-    inner.leftCols(all) = decoded * B.transpose() * s.asDiagonal();
-    inner.col(all) = std::sqrt(static_cast<double>(vertex_count)) * (decoded * shift);
-    return energy - inner.cwiseProduct((decoded * decoded.transpose()).ldlt().solve(inner)).sum();
-}
-
 double squared_distance(MatrixView<const double> C, MatrixView<const double> D, MatrixView<const double> basis)
 {
     const auto K = static_cast<Index>(basis.rows), N = static_cast<Index>(C.rows);

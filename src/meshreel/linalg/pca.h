@@ -38,11 +38,6 @@ struct Projection {
 Projection project(MatrixView<const float> frames, std::span<const double> mean, MatrixView<const double> basis,
                    Threads threads);
 
-/// Projection::squared_error of project() with these, from the PCA alone: exact but for what the PCA left out.
-/// @cost O(K n K') for K' components of the PCA: the vertices are not touched.
-double squared_error_of_basis(const Pca& pca, std::size_t vertex_count, std::span<const double> mean,
-                              MatrixView<const double> basis);
-
 /// Sum over all trajectories of |B^T (c - d)|^2: what replacing coefficients C by D [N x K] changes.
 double squared_distance(MatrixView<const double> C, MatrixView<const double> D, MatrixView<const double> basis);
 

@@ -1,12 +1,11 @@
-/// A search by secants for the step, inside a descent over the number of bases.
+/// Secants along the step, and a descent over the other settings.
 // SPDX-License-Identifier: MIT
 #include "meshreel/tune/search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "meshreel/base/text.h"
+#include <optional>
 
 namespace meshreel::tune {
 
@@ -14,128 +13,228 @@ namespace {
 
 using codecs::Settings;
 
-constexpr double loose = 0.93, tight = 0.99; // how far below the target a step may end
+constexpr double aimed_excess = 0.992; // what the next attempt aims at
+constexpr double good_excess = 0.98;   // worth verifying
+constexpr double least_excess = 0.97;  // good enough where verified
+constexpr double no_bracket = std::numeric_limits<double>::infinity();
 
-/// Smaller is better; none is worst.
-bool better(const std::optional<Attempt>& a, const std::optional<Attempt>& b)
-{
-    return a && (!b || a->size < b->size);
-}
-
-class Search {
+/// The excess along the step, everything else being equal: y = log excess over x = log step, turned so that it rises.
+class Line {
 public:
-    explicit Search(const Problem& problem) : problem_(problem) {}
+    explicit Line(bool rises) : sign_(rises ? 1.0 : -1.0), usual_slope_(rises ? 0.9 : 0.5) {}
 
-    /// The coarsest step, everything else given, whose distortion is within [tolerance, 1] of the target; none where
-    /// no step gets there. Works on logarithms, where distortion is nearly linear in the step.
-    Result<std::optional<Attempt>> solve(Settings settings, double tolerance)
+    void add(const Attempt& attempt)
     {
-        constexpr int most_attempts = 14;
-        constexpr double steepest = std::numeric_limits<double>::infinity();
-        double fine = -steepest, coarse = steepest; // brackets of log step
-        double x = std::log(settings.step);
-        std::optional<Attempt> best;
-        for (int i = 0; i < most_attempts; ++i) {
-            settings.step = std::exp(x);
-            MESHREEL_TRY(const Attempt attempt, problem_.attempt(settings));
-            report(problem_.progress, "search", 1.0 - 1.0 / (1.0 + 0.1 * ++count_));
-            const double ratio = attempt.distortion / problem_.target;
-            if (ratio <= 1.0 && better(attempt, best)) best = attempt;
-            if (ratio <= 1.0 && ratio >= tolerance) break;
-            (ratio <= 1.0 ? fine : coarse) = x;
-            x = next(x, ratio, tolerance, {fine, coarse});
-        }
-        return best;
+        points_.push_back({sign_ * std::log(attempt.settings.step), logarithm(attempt.excess)});
+    }
+    /// All excesses turned out to be so many times larger.
+    void correct(double factor)
+    {
+        for (Point& point : points_) point.y += std::log(factor);
+    }
+    /// Whether more attempts could tell anything: not where the last two are far apart and agree.
+    bool flat() const
+    {
+        if (points_.size() < 2) return false;
+        const Point &a = points_.back(), &b = points_[points_.size() - 2];
+        return std::abs(a.y - b.y) < 1e-6 && std::abs(a.x - b.x) > 0.5;
+    }
+    bool narrow() const
+    {
+        const auto [fine, coarse] = bracket();
+        return coarse - fine < 1e-5;
+    }
+    /// The step to try next. @pre a point was added
+    double next() const
+    {
+        const double goal = std::log(aimed_excess);
+        std::vector<Point> near = points_;
+        std::sort(near.begin(), near.end(),
+                  [&](Point a, Point b) { return std::abs(a.y - goal) < std::abs(b.y - goal); });
+        double slope = usual_slope_;
+        if (near.size() > 1 && std::abs(near[1].x - near[0].x) > 1e-6)
+            slope = std::clamp((near[1].y - near[0].y) / (near[1].x - near[0].x), 0.4 * usual_slope_, 2 * usual_slope_);
+        double x = near[0].x + std::clamp((goal - near[0].y) / slope, -4.0, 4.0);
+        const auto [fine, coarse] = bracket();
+        const double margin = std::isfinite(coarse - fine) ? 0.05 * (coarse - fine) : 0.0;
+        if (!(x > fine + margin && x < coarse - margin) && margin > 0) x = 0.5 * (fine + coarse);
+        return std::exp(sign_ * x);
     }
 
 private:
+    struct Point {
+        double x, y;
+    };
     struct Bracket {
         double fine, coarse;
     };
 
-    /// Aims at the middle of the tolerance; halves the bracket where the aim leaves it.
-    static double next(double x, double ratio, double tolerance, Bracket bracket)
+    static double logarithm(double excess) { return excess > 0 ? std::max(std::log(excess), -40.0) : -40.0; }
+
+    /// The coarsest step known to keep the limit, and the finest beyond it known not to.
+    Bracket bracket() const
     {
-        const double aim = 0.5 * (1.0 + tolerance);
-        const double jump = ratio > 0 ? std::clamp(std::log(aim / ratio), -4.0, 4.0) : 4.0;
-        const double wanted = x + jump;
-        const double width = bracket.coarse - bracket.fine;
-        if (!std::isfinite(width)) return wanted;
-        const double margin = 0.05 * width;
-        if (wanted > bracket.fine + margin && wanted < bracket.coarse - margin) return wanted;
-        return 0.5 * (bracket.fine + bracket.coarse);
+        Bracket bracket{-no_bracket, no_bracket};
+        for (const Point& point : points_)
+            if (point.y <= 0) bracket.fine = std::max(bracket.fine, point.x);
+        for (const Point& point : points_)
+            if (point.y > 0 && point.x > bracket.fine) bracket.coarse = std::min(bracket.coarse, point.x);
+        return bracket;
+    }
+
+    double sign_, usual_slope_;
+    std::vector<Point> points_;
+};
+
+class Search {
+public:
+    explicit Search(const Problem& problem) : problem_(problem), exchange_(problem.rises ? 0.6 : 1.7) {}
+
+    Result<Attempt> run(const Settings& start)
+    {
+        Settings settings = start;
+        Line line(problem_.rises);
+        if (!problem_.knobs.empty()) {
+            MESHREEL_TRY(Attempt near, approach(settings, line));
+            for (int round = 0; round < problem_.rounds; ++round)
+                for (const Knob& knob : problem_.knobs) MESHREEL_CHECK(descend(near, knob));
+            line = Line(problem_.rises);
+            settings = near.settings;
+            return land(std::move(near), line);
+        }
+        MESHREEL_TRY(Attempt first, attempted(settings));
+        return land(std::move(first), line);
+    }
+
+private:
+    Result<Attempt> attempted(const Settings& settings)
+    {
+        report(problem_.progress, "search", 1.0 - 1.0 / (1.0 + 0.1 * ++count_));
+        {
+            auto r = problem_.attempt(settings);
+            if (getenv("QX"))
+                fprintf(stderr, "att D %.5g tau %.2f br %.2f fr %.2f lin %.0f dz %.2f -> excess %.4f cost %.0f\n",
+                        settings.step, settings.truncation, settings.basis_ratio, settings.first_ratio, settings.linear,
+                        settings.dead_zone, r->excess, r->cost);
+            return r;
+        }
+    }
+
+    /// An attempt near the limit on either side, and what excess costs there: from two attempts that differ enough.
+    Result<Attempt> approach(Settings settings, Line& line)
+    {
+        constexpr int most_attempts = 8;
+        constexpr double near_enough = 0.1, telling = 0.05, other_step = 0.87;
+        MESHREEL_TRY(Attempt attempt, attempted(settings));
+        for (int i = 1; i < most_attempts && !line.flat(); ++i) {
+            line.add(attempt);
+            const double step = settings.step;
+            settings.step = line.next();
+            const bool same = std::abs(std::log(settings.step / step)) < telling;
+            if (same) settings.step = step * other_step;
+            MESHREEL_TRY(Attempt next, attempted(settings));
+            learn_exchange(attempt, next);
+            if (!same) attempt = std::move(next);
+            if (same || std::abs(std::log(attempt.excess)) < near_enough) break;
+        }
+        return attempt;
+    }
+
+    void learn_exchange(const Attempt& a, const Attempt& b)
+    {
+        const double excess = std::log(b.excess / a.excess), cost = std::log(b.cost / a.cost);
+        const double usual = problem_.rises ? 0.6 : 1.7, exchange = -cost / excess;
+        if (std::isfinite(exchange)) exchange_ = std::clamp(exchange, 0.4 * usual, 2.5 * usual);
+    }
+
+    /// log of what an attempt would cost if it kept the limit exactly.
+    double price(const Attempt& attempt) const { return std::log(attempt.cost) + exchange_ * std::log(attempt.excess); }
+
+    /// Moves along a knob for as long as it pays.
+    Status descend(Attempt& best, const Knob& knob)
+    {
+        constexpr int most_moves = 3;
+        constexpr double worth_it = 0.001;
+        for (double factor : {knob.factor, 1.0 / knob.factor}) {
+            bool moved = false;
+            for (int move = 0; move < most_moves; ++move) {
+                Settings settings = best.settings;
+                double& value = settings.*knob.setting;
+                const double wanted = std::clamp(value * factor, knob.least, knob.most);
+                if (wanted == value) break;
+                value = wanted;
+                MESHREEL_TRY(Attempt attempt, attempted(settings));
+                if (!(price(attempt) < price(best) - worth_it)) break;
+                best = std::move(attempt);
+                moved = true;
+            }
+            if (moved) break;
+        }
+        return Ok{};
+    }
+
+    /// From an attempt somewhere to a verified one just below the limit.
+    Result<Attempt> land(Attempt attempt, Line line)
+    {
+        constexpr int enough_attempts = 8, most_attempts = 20; // enough where something keeps the limit
+        Landing landing;
+        for (int i = 1;; ++i) {
+            attempt.excess *= landing.correction;
+            line.add(attempt);
+            Settings settings = attempt.settings;
+            landing.consider(std::move(attempt));
+            const bool last =
+                i == most_attempts || (i >= enough_attempts && landing.kept()) || line.flat() || line.narrow();
+            if (landing.promising() || last) MESHREEL_CHECK(verify(landing, line));
+            if (landing.reached >= least_excess || last) break;
+            settings.step = line.next();
+            MESHREEL_TRY(attempt, attempted(settings));
+        }
+        if (landing.best) return *std::move(landing.best);
+        return Error{ErrorCode::missed, "no setting of the codec keeps it", {}, {}, {}};
+    }
+
+    /// What the last part of the search knows.
+    struct Landing {
+        std::optional<Attempt> candidate, best; ///< nearest below the limit: not verified yet, and verified
+        double correction = 1.0;                ///< of excesses, as verification taught
+        double reached = 0.0;                   ///< the verified excess of the best
+
+        void consider(Attempt attempt)
+        {
+            if (attempt.excess <= 1.0 && attempt.excess > (candidate ? candidate->excess : reached))
+                candidate = std::move(attempt);
+        }
+        bool promising() const { return candidate && candidate->excess >= good_excess; }
+        bool kept() const { return candidate || best; }
+    };
+
+    Status verify(Landing& landing, Line& line) const
+    {
+        if (!landing.candidate) return Ok{};
+        Attempt attempt = *std::move(landing.candidate);
+        landing.candidate.reset();
+        MESHREEL_TRY(const double excess, problem_.verify(attempt));
+        if (attempt.excess > 0 && excess > 0) {
+            landing.correction *= excess / attempt.excess;
+            line.correct(excess / attempt.excess);
+        }
+        if (excess > 1.0 || (landing.best && excess <= landing.reached)) return Ok{};
+        landing.reached = excess;
+        landing.best = std::move(attempt);
+        return Ok{};
     }
 
     const Problem& problem_;
+    double exchange_; ///< a percent of excess costs so many percent
     int count_ = 0;
 };
 
-/// Tries neighbours of the best along one setting for as long as they are smaller.
-/// vary(settings, direction) moves one step, false where there is nowhere to go.
-template <class Vary>
-Status descend(Search& search, Attempt& best, const Vary& vary)
-{
-    constexpr int most_moves = 3;
-    for (int direction : {-1, 1}) {
-        bool moved = false;
-        for (int move = 0; move < most_moves; ++move) {
-            Settings settings = best.settings;
-            if (!vary(settings, direction)) break;
-            MESHREEL_TRY(const std::optional<Attempt> attempt, search.solve(settings, tight));
-            if (!better(attempt, best)) break;
-            best = *attempt;
-            moved = true;
-        }
-        if (moved) break;
-    }
-    return Ok{};
-}
-
-bool vary_bases(Settings& settings, int direction)
-{
-    const auto K = static_cast<std::int64_t>(*settings.bases);
-    const std::int64_t next = K + direction * std::max<std::int64_t>(1, K / 16);
-    if (next < 1) return false;
-    settings.bases = static_cast<std::uint32_t>(next);
-    return true;
-}
-
-bool vary_ratio(Settings& settings, int direction)
-{
-    settings.basis_ratio *= direction > 0 ? 1.35 : 1.0 / 1.35;
-    return true;
-}
-
 } // namespace
 
-Result<std::optional<Attempt>> coarsest(const Problem& problem, const Settings& settings)
+Result<Attempt> cheapest(const Problem& problem, const Settings& start)
 {
-    return Search(problem).solve(settings, tight);
-}
-
-Result<Attempt> smallest(const Problem& problem, Settings start)
-{
-    Search search(problem);
-    std::optional<Attempt> best;
-    for (double truncation : problem.truncations) {
-        start.truncation = truncation;
-        start.bases.reset();
-        MESHREEL_TRY(const std::optional<Attempt> attempt, search.solve(start, loose));
-        if (best && !better(attempt, best)) break;
-        if (attempt) {
-            best = attempt;
-            start.step = attempt->settings.step;
-        }
-    }
-    if (!best)
-        return Error{
-            ErrorCode::missed, concat("no setting of the codec reaches the target of ", problem.target), {}, {}, {}};
-    if (!problem.refine) return *best;
-    MESHREEL_TRY(const std::optional<Attempt> exact, search.solve(best->settings, tight));
-    if (better(exact, best)) best = exact;
-    MESHREEL_CHECK(descend(search, *best, vary_bases));
-    MESHREEL_CHECK(descend(search, *best, vary_ratio));
-    return *best;
+    return Search(problem).run(start);
 }
 
 } // namespace meshreel::tune

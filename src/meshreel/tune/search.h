@@ -1,40 +1,48 @@
-/// The smallest encoding whose distortion is at most a target.
+/// The cheapest encoding that keeps a limit, in few attempts.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "meshreel/base/progress.h"
 #include "meshreel/base/result.h"
+#include "meshreel/base/views.h"
 #include "meshreel/codecs/settings.h"
 
 namespace meshreel::tune {
 
-/// What one point of the search costs and gives.
+/// One point of the search: what it is, costs and gives.
 struct Attempt {
-    codecs::Settings settings; ///< settings.bases is always set: the K that was used
-    std::uint64_t size = 0;    ///< bytes
-    double distortion = 0.0;   ///< in the target's unit, >= 0
+    codecs::Settings settings;
+    double excess = 0.0; ///< what is limited over its limit: kept where at most 1; >= 0
+    double cost = 0.0;   ///< what should be small: bytes where the error is limited, an error where bytes are; >= 0
+    std::vector<Bytes> payloads; ///< one a segment
+    std::uint32_t bases = 0;     ///< K, of the segment that has most
+    double step = 0.0;           ///< D, model units
+};
+
+/// A setting worth varying, and how: up and down by a factor, within a range.
+struct Knob {
+    double codecs::Settings::*setting;
+    double factor; ///< > 1
+    double least, most;
 };
 
 struct Problem {
-    std::function<Result<Attempt>(const codecs::Settings&)> attempt; ///< encodes and measures
-    double target = 0.0;                                             ///< distortion at most this, > 0
-    std::vector<double> truncations; ///< values of Settings::truncation worth a look, best guess first; not empty
-    bool refine = true;              ///< also vary K and the share of the basis around the best
-    Progress progress;
+    std::function<Result<Attempt>(const codecs::Settings&)> attempt; ///< encodes, and measures nearly
+    std::function<Result<double>(const Attempt&)> verify;            ///< the excess that counts, of the decoded file
+    bool rises = true;            ///< the excess rises with the step, as errors do; sizes fall
+    std::vector<Knob> knobs = {}; ///< varied one after another, each for as long as it pays
+    int rounds = 1;               ///< how often all of them
+    Progress progress = {};
 };
 
-/// The smallest attempt found with distortion <= target, usually above 0.99 target. `start` says everything but step,
-/// bases, truncation and basis_ratio; its step is the first guess.
-/// Distortion must fall with the step, on the whole; then some twenty attempts are made.
-/// @fails missed: even the finest steps stay above the target; whatever attempt fails with.
-Result<Attempt> smallest(const Problem& problem, codecs::Settings start);
-
-/// The attempt with the coarsest step whose distortion is at most the target, all other settings given; none where the
-/// finest steps stay above it. settings.step is the first guess.
-Result<std::optional<Attempt>> coarsest(const Problem& problem, const codecs::Settings& settings);
+/// The cheapest attempt found that verifies at most 1, and 0.97 or more where any step gives that: first the step by
+/// secants on logarithms, where errors and sizes are nearly linear in it; then the knobs, each new point held against the
+/// best as if both kept the limit exactly; then the step again, until verified. settings.step of `start` is the first
+/// guess. Two to five attempts, two or three more a knob.
+/// @fails missed: the limit is not kept at any step tried; whatever attempt or verify fails with.
+Result<Attempt> cheapest(const Problem& problem, const codecs::Settings& start);
 
 } // namespace meshreel::tune

@@ -1,0 +1,80 @@
+/// Targets into limits.
+// SPDX-License-Identifier: MIT
+#include "meshreel/goal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "meshreel/base/text.h"
+
+namespace meshreel {
+
+namespace {
+
+Error quality_usage(std::string message)
+{
+    return {ErrorCode::usage, std::move(message), {}, {}, {}};
+}
+
+using NamedTarget = std::pair<const char*, std::optional<double>>;
+
+std::vector<NamedTarget> targets_of(const Quality& quality)
+{
+    return {{"kg", quality.kg},
+            {"sted", quality.sted},
+            {"max_error", quality.max_error},
+            {"max_error_relative", quality.max_error_relative},
+            {"psnr", quality.psnr},
+            {"size", quality.size ? std::optional(static_cast<double>(*quality.size)) : std::nullopt},
+            {"bpfv", quality.bpfv}};
+}
+
+} // namespace
+
+Status check_quality(const Quality& quality)
+{
+    std::vector<const char*> asked;
+    for (const auto& [name, value] : targets_of(quality)) {
+        if (value) asked.push_back(name);
+        if (value && !(*value > 0 && std::isfinite(*value))) return quality_usage(concat(name, " must be above 0"));
+    }
+    if (quality.bases) asked.push_back("bases");
+    if (quality.step) asked.push_back("step");
+    const bool by_hand = asked.size() == 2 && quality.bases && quality.step;
+    if (asked.size() > 1 && !by_hand)
+        return quality_usage(concat(asked[0], " and ", asked[1], " exclude each other: one target, or bases and step"));
+    if (quality.step && !(*quality.step > 0 && std::isfinite(*quality.step)))
+        return quality_usage("step must be above 0");
+    if (quality.bases && *quality.bases == 0) return quality_usage("bases must be above 0");
+    return Ok{};
+}
+
+Measures allowed_by(const Quality& quality, const Animation& animation, double diagonal)
+{
+    Measures allowed{no_limit, no_limit, no_limit, no_limit, no_limit};
+    const double F = static_cast<double>(animation.frame_count()), V = animation.vertex_count;
+    if (quality.kg) allowed.kg = *quality.kg;
+    if (quality.sted) allowed.sted = *quality.sted;
+    if (quality.max_error) allowed.max_error = *quality.max_error;
+    if (quality.max_error_relative) allowed.max_error = *quality.max_error_relative / 100 * diagonal;
+    if (quality.psnr) allowed.rms = diagonal * std::pow(10.0, -*quality.psnr / 20); // (5.1)
+    if (quality.size) allowed.bytes = static_cast<double>(*quality.size);
+    if (quality.bpfv) allowed.bytes = *quality.bpfv * F * V / 8; // (9.1)
+    const std::vector<NamedTarget> targets = targets_of(quality);
+    if (std::ranges::any_of(targets, [](const NamedTarget& target) { return target.second.has_value(); }))
+        return allowed;
+    const bool edges = !animation.triangles.empty();
+    if (edges) allowed.sted = unseen_sted;
+    allowed.max_error = (edges ? unseen_percent : unseen_points_percent) / 100 * diagonal;
+    return allowed;
+}
+
+double excess_of(const Measures& reached, const Measures& allowed)
+{
+    return std::max({reached.kg / allowed.kg, reached.rms / allowed.rms, reached.max_error / allowed.max_error,
+                     reached.sted / allowed.sted, reached.bytes / allowed.bytes});
+}
+
+} // namespace meshreel

@@ -1,0 +1,51 @@
+/// The table of efforts.
+// SPDX-License-Identifier: MIT
+#include "meshreel/tune/effort.h"
+
+#include <array>
+
+namespace meshreel::tune {
+
+namespace {
+
+/// Of each effort: how seldom weights are found anew, how many of the knobs are varied, how often.
+struct EffortRow {
+    std::uint32_t growth;
+    std::size_t knobs;
+    int rounds;
+};
+constexpr std::array<EffortRow, most_effort> effort_rows{{
+    {64, 0, 1},
+    {16, 0, 1},
+    {8, 0, 1},
+    {5, 0, 1},
+    {5, 2, 1},
+    {5, 3, 1},
+    {4, 4, 1},
+    {4, 5, 1},
+    {3, 5, 2},
+}};
+
+} // namespace
+
+Plan plan_of(int effort, Tune tune)
+{
+    const EffortRow& row = effort_rows[static_cast<std::size_t>(effort - least_effort)];
+    Plan plan;
+    // Errors of the basis are smooth over the surface, and so are components left out: STED hardly sees them.
+    plan.start.truncation = tune == Tune::sted ? 0.9 : 0.4;
+    plan.start.basis_ratio = tune == Tune::sted ? 2.8 : 1.2;
+    plan.start.first_ratio = tune == Tune::sted ? 0.45 : 1.0;
+    plan.start.dead_zone = tune == Tune::sted ? 0.6 : 0.5;
+    plan.start.growth = row.growth;
+    plan.knobs = {{&codecs::Settings::truncation, 1.3, 0.05, 2.0},
+                  {&codecs::Settings::basis_ratio, 1.3, 0.2, tune == Tune::sted ? 2.8 : 2.0},
+                  {&codecs::Settings::first_ratio, 1.25, 0.2, 2.0},
+                  {&codecs::Settings::linear, 2.5, 10.0, 2000.0},
+                  {&codecs::Settings::dead_zone, 1.06, 0.5, 0.75}};
+    plan.knobs.resize(row.knobs);
+    plan.rounds = row.rounds;
+    return plan;
+}
+
+} // namespace meshreel::tune

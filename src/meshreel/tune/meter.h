@@ -1,0 +1,41 @@
+/// How far a decoding is off, measured without decoding bytes: for searches.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "meshreel/base/parallel.h"
+#include "meshreel/base/views.h"
+#include "meshreel/codecs/trajectories.h"
+#include "meshreel/mesh/animation.h"
+
+namespace meshreel::tune {
+
+/// Holds decodings of a run of frames against the original, which must outlive it.
+class Meter {
+public:
+    /// frames [F x 3W], of whose vertices the triangles speak.
+    Meter(MatrixView<const float> frames, std::span<const Triangle> triangles, Threads threads);
+
+    /// The largest distance of any vertex in any frame, model units. @cost O(F W K).
+    double largest_distance(const codecs::Trajectories& decoded) const;
+
+    /// The spatial part of STED (7.8), nearly: from some of the frames. The temporal part is far below it in practice.
+    /// @cost that of 32 frames at most.
+    double sted(const codecs::Trajectories& decoded) const;
+
+    std::size_t frame_count() const { return frames_.rows; }
+
+private:
+    MatrixView<const float> frames_;
+    std::span<const Triangle> triangles_;
+    Threads threads_;
+    std::vector<FrameMix> some_; ///< frames that STED looks at
+    Matrix<double> originals_;   ///< their positions
+};
+
+/// The mean length of the edges of the triangles (each counted once a triangle) in one frame; 0 where there are none.
+double mean_edge(std::span<const float> frame, std::span<const Triangle> triangles);
+
+} // namespace meshreel::tune
