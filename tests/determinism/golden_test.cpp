@@ -41,6 +41,7 @@ const Golden goldens[] = {
     {"lsp", "cobra_range", BasisCoding::cobra, Entropy::range},
     {"rbfp", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
     {"rbfp", "cobra_range", BasisCoding::cobra, Entropy::range},
+    {"reel", "range", BasisCoding::cobra, Entropy::range},
 };
 
 /// XXH3-64 of the positions' bits, little-endian, as hexadecimal digits.

@@ -8,6 +8,7 @@
 #include "meshreel/mesh/test_shapes.h"
 #include "meshreel/meshreel.h"
 #include "meshreel/metrics/kg.h"
+#include "meshreel/metrics/sted.h"
 #include "meshreel/metrics/vertex_error.h"
 
 using namespace meshreel;
@@ -116,7 +117,7 @@ TEST_P(EveryReel, RefusesAnotherBaseMesh)
     EXPECT_EQ(encode(animation, options).error().code, ErrorCode::usage);
 }
 
-TEST_P(EveryReel, MeetsTheQualityAskedFor)
+TEST_P(EveryReel, MeetsTheErrorAskedFor)
 {
     const Animation animation = sample();
     EncodeOptions options = options_for(GetParam());
@@ -126,13 +127,47 @@ TEST_P(EveryReel, MeetsTheQualityAskedFor)
         const auto by_kg = encode(animation, options);
         ASSERT_TRUE(by_kg.ok()) << by_kg.error().sentence();
         EXPECT_LE(metrics::kg_error(animation, *decode(by_kg->bytes)), target);
-        EXPECT_GE(by_kg->kg, 0.5 * target);
+        EXPECT_GE(by_kg->kg, 0.95 * target); // with components that come and go at once; else 0.97
         options.quality = {};
         options.quality.max_error_relative = target;
         const auto by_distance = encode(animation, options);
         ASSERT_TRUE(by_distance.ok()) << by_distance.error().sentence();
         EXPECT_LE(metrics::max_error_relative(animation, *decode(by_distance->bytes)), target);
     }
+}
+
+TEST_P(EveryReel, MeetsTheStedAskedFor)
+{
+    const Animation animation = sample();
+    EncodeOptions options = options_for(GetParam());
+    options.quality = {};
+    options.quality.sted = 0.02;
+    const auto encoded = encode(animation, options);
+    ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
+    EXPECT_LE(metrics::sted_error(animation, *decode(encoded->bytes)), 0.02);
+    EXPECT_GE(*encoded->sted, 0.97 * 0.02);
+}
+
+TEST_P(EveryReel, MeetsThePsnrAskedFor)
+{
+    const Animation animation = sample();
+    EncodeOptions options = options_for(GetParam());
+    options.quality = {};
+    options.quality.psnr = 60;
+    const auto encoded = encode(animation, options);
+    ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
+    EXPECT_GE(metrics::psnr(animation, *decode(encoded->bytes)), 60.0);
+    EXPECT_LE(encoded->psnr, 60.3);
+}
+
+TEST_P(EveryReel, FitsIntoTheSizeAskedFor)
+{
+    EncodeOptions options = options_for(GetParam());
+    options.quality = {};
+    options.quality.size = 5000;
+    const auto encoded = encode(sample(), options);
+    ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
+    EXPECT_LE(encoded->bytes.size(), 5000u);
 }
 
 TEST_P(EveryReel, WritesTheSameBytesForOneAndTwoThreads)
@@ -165,7 +200,7 @@ TEST(Reel, SaysWhatItHoldsWithoutDecodingPositions)
     EXPECT_EQ(found->vertices, animation.vertex_count);
     EXPECT_EQ(found->frames, animation.frame_count());
     EXPECT_EQ(found->meta.name, "ripple");
-    EXPECT_EQ(found->codec, "coddyac");
+    EXPECT_EQ(found->codec, "reel");
 }
 
 TEST(Reel, RefusesQualitiesThatContradictEachOther)
@@ -189,12 +224,35 @@ TEST(Reel, RefusesAnUnknownCodecAndAnInvalidAnimation)
     EXPECT_EQ(encode(broken).error().code, ErrorCode::bad_input);
 }
 
+TEST(Reel, FillsTheSizeAskedFor)
+{
+    EncodeOptions options;
+    options.quality.bpfv = 5;
+    const auto encoded = encode(sample(), options);
+    ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
+    EXPECT_LE(encoded->bpfv, 5.0);
+    EXPECT_GE(encoded->bpfv, 4.85);
+}
+
+TEST(Reel, AHigherEffortIsSmaller)
+{
+    const Animation cloth = *shapes::generate(*shapes::find("cloth"), {.vertices = 400, .frames = 40});
+    EncodeOptions options;
+    options.quality.kg = 0.2;
+    options.effort = 1;
+    const Bytes fast = encode(cloth, options)->bytes;
+    options.effort = 9;
+    EXPECT_LT(encode(cloth, options)->bytes.size(), fast.size());
+    options.effort = 10;
+    EXPECT_EQ(encode(cloth, options).error().code, ErrorCode::usage);
+}
+
 TEST(Reel, CutsLongAnimationsIntoSegments)
 {
     const Animation animation = *shapes::generate(*shapes::find("wave"), {.vertices = 30, .frames = 1500});
     const auto encoded = encode(animation);
     ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
-    EXPECT_LE(metrics::max_error_relative(animation, *decode(encoded->bytes)), 0.05);
+    EXPECT_LE(metrics::sted_error(animation, *decode(encoded->bytes)), 0.02);
     const auto chunks = info(encoded->bytes)->chunks;
     EXPECT_EQ(std::count_if(chunks.begin(), chunks.end(), [](const auto& chunk) { return chunk.type == "SEGM"; }), 2);
 }

@@ -23,6 +23,7 @@ protected:
         EncodeOptions options;
         options.codec = std::string(GetParam().name);
         options.segment = segment;
+        options.quality.max_error_relative = 0.05;
         options.threads = {1};
         return encode(animation, options)->bytes;
     }

@@ -107,6 +107,17 @@ TEST(Search, SaysSoWhenNoStepReachesTheTarget)
     EXPECT_EQ(best.error().code, ErrorCode::missed);
 }
 
+TEST(Search, CrossesAPlateauThatIsJustTooHigh)
+{
+    Model model;
+    tune::Problem problem = model.problem();
+    problem.attempt = [](const codecs::Settings& settings) -> Result<tune::Attempt> {
+        return tune::Attempt{settings, settings.step > 1e-4 ? 1.003 : 0.5, 1.0, {}, 3, 1.0};
+    };
+    problem.verify = [](const tune::Attempt& attempt) { return Result<double>(attempt.excess); };
+    EXPECT_TRUE(tune::cheapest(problem, {.step = 1.0}).ok());
+}
+
 TEST(Search, HandsOnTheErrorOfAnAttempt)
 {
     Model model;

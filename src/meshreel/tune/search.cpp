@@ -27,6 +27,12 @@ public:
     {
         points_.push_back({sign_ * std::log(attempt.settings.step), logarithm(attempt.excess)});
     }
+    /// Forgets all but how steep it was.
+    void restart()
+    {
+        usual_slope_ = slope();
+        points_.clear();
+    }
     /// All excesses turned out to be so many times larger.
     void correct(double factor)
     {
@@ -48,16 +54,12 @@ public:
     double next() const
     {
         const double goal = std::log(aimed_excess);
-        std::vector<Point> near = points_;
-        std::sort(near.begin(), near.end(),
-                  [&](Point a, Point b) { return std::abs(a.y - goal) < std::abs(b.y - goal); });
-        double slope = usual_slope_;
-        if (near.size() > 1 && std::abs(near[1].x - near[0].x) > 1e-6)
-            slope = std::clamp((near[1].y - near[0].y) / (near[1].x - near[0].x), 0.4 * usual_slope_, 2 * usual_slope_);
-        double x = near[0].x + std::clamp((goal - near[0].y) / slope, -4.0, 4.0);
+        const Point near = nearest()[0];
         const auto [fine, coarse] = bracket();
-        const double margin = std::isfinite(coarse - fine) ? 0.05 * (coarse - fine) : 0.0;
-        if (!(x > fine + margin && x < coarse - margin) && margin > 0) x = 0.5 * (fine + coarse);
+        const double jump = std::clamp((goal - near.y) / slope(), -4.0, 4.0);
+        if (!std::isfinite(coarse - fine)) return std::exp(sign_ * (near.x + boldness() * jump));
+        const double x = near.x + jump, margin = 0.05 * (coarse - fine);
+        if (!(x > fine + margin && x < coarse - margin)) return std::exp(sign_ * 0.5 * (fine + coarse));
         return std::exp(sign_ * x);
     }
 
@@ -68,6 +70,27 @@ private:
     struct Bracket {
         double fine, coarse;
     };
+
+    /// The points, nearest to the goal first.
+    std::vector<Point> nearest() const
+    {
+        const double goal = std::log(aimed_excess);
+        std::vector<Point> near = points_;
+        std::sort(near.begin(), near.end(),
+                  [&](Point a, Point b) { return std::abs(a.y - goal) < std::abs(b.y - goal); });
+        return near;
+    }
+
+    double slope() const
+    {
+        const std::vector<Point> near = nearest();
+        if (near.size() < 2 || std::abs(near[1].x - near[0].x) < 1e-6) return usual_slope_;
+        const double secant = (near[1].y - near[0].y) / (near[1].x - near[0].x), usual = sign_ > 0 ? 0.9 : 0.5;
+        return std::clamp(secant, 0.4 * usual, 2 * usual);
+    }
+
+    /// Larger and larger jumps where none has crossed the limit yet: an excess may stay the same for a while.
+    double boldness() const { return std::exp2(std::max(0.0, static_cast<double>(points_.size()) - 3.0)); }
 
     static double logarithm(double excess) { return excess > 0 ? std::max(std::log(excess), -40.0) : -40.0; }
 
@@ -98,8 +121,7 @@ public:
             MESHREEL_TRY(Attempt near, approach(settings, line));
             for (int round = 0; round < problem_.rounds; ++round)
                 for (const Knob& knob : problem_.knobs) MESHREEL_CHECK(descend(near, knob));
-            line = Line(problem_.rises);
-            settings = near.settings;
+            line.restart();
             return land(std::move(near), line);
         }
         MESHREEL_TRY(Attempt first, attempted(settings));
@@ -110,14 +132,7 @@ private:
     Result<Attempt> attempted(const Settings& settings)
     {
         report(problem_.progress, "search", 1.0 - 1.0 / (1.0 + 0.1 * ++count_));
-        {
-            auto r = problem_.attempt(settings);
-            if (getenv("QX"))
-                fprintf(stderr, "att D %.5g tau %.2f br %.2f fr %.2f lin %.0f dz %.2f -> excess %.4f cost %.0f\n",
-                        settings.step, settings.truncation, settings.basis_ratio, settings.first_ratio, settings.linear,
-                        settings.dead_zone, r->excess, r->cost);
-            return r;
-        }
+        return problem_.attempt(settings);
     }
 
     /// An attempt near the limit on either side, and what excess costs there: from two attempts that differ enough.
@@ -176,17 +191,16 @@ private:
     /// From an attempt somewhere to a verified one just below the limit.
     Result<Attempt> land(Attempt attempt, Line line)
     {
-        constexpr int enough_attempts = 8, most_attempts = 20; // enough where something keeps the limit
+        constexpr int enough_attempts = 8, most_attempts = 20; // enough where one keeps the limit
         Landing landing;
         for (int i = 1;; ++i) {
             attempt.excess *= landing.correction;
             line.add(attempt);
             Settings settings = attempt.settings;
             landing.consider(std::move(attempt));
-            const bool last =
-                i == most_attempts || (i >= enough_attempts && landing.kept()) || line.flat() || line.narrow();
-            if (landing.promising() || last) MESHREEL_CHECK(verify(landing, line));
-            if (landing.reached >= least_excess || last) break;
+            const bool settled = i >= enough_attempts || line.flat() || line.narrow();
+            if (landing.promising() || settled) MESHREEL_CHECK(verify(landing, line));
+            if (landing.reached >= least_excess || (settled && landing.best) || i == most_attempts) break;
             settings.step = line.next();
             MESHREEL_TRY(attempt, attempted(settings));
         }
@@ -206,7 +220,6 @@ private:
                 candidate = std::move(attempt);
         }
         bool promising() const { return candidate && candidate->excess >= good_excess; }
-        bool kept() const { return candidate || best; }
     };
 
     Status verify(Landing& landing, Line& line) const
