@@ -14,7 +14,7 @@ using predict::Rbf;
 
 namespace {
 
-constexpr double tiny_step = 1e-9;
+constexpr double point_step = 1e-9;
 
 double phi(double r)
 {
@@ -47,7 +47,7 @@ TEST(Rbf, KernelIsThePower175)
 
 TEST(Rbf, AveragesTheFirstComponent)
 {
-    Rbf predictor(tiny_step);
+    Rbf predictor(point_step);
     predictor.start(3);
     EXPECT_DOUBLE_EQ(predictor.guess(std::vector{1.0, 2.0, 6.0}), 3.0); // (8.4)
 }
@@ -55,7 +55,7 @@ TEST(Rbf, AveragesTheFirstComponent)
 TEST(Rbf, OfTwoNeighboursIsKnownInClosedForm)
 {
     // Places 0 and 2, values 10 and 20: lambda_1 = -lambda_2 = 5 / phi(2), a = 15 (8.8), (8.9).
-    Rbf predictor(tiny_step);
+    Rbf predictor(point_step);
     predictor.start(2);
     predictor.learn(std::vector{0.0, 2.0}, 0.5);
     EXPECT_NEAR(predictor.guess(std::vector{10.0, 20.0}), 15 + 5 * (phi(0.5) - phi(1.5)) / phi(2), 1e-12); // (8.7)
@@ -67,7 +67,7 @@ TEST(Rbf, SolvesTheSystemThatThePaperPrints)
     for (int N = 2; N <= 10; ++N) {
         Eigen::MatrixXd points(N, 5);
         Eigen::VectorXd x(5), y(N);
-        Rbf predictor(tiny_step);
+        Rbf predictor(point_step);
         predictor.start(static_cast<std::size_t>(N));
         for (int k = 0; k < 5; ++k) {
             for (int i = 0; i < N; ++i) points(i, k) = random.uniform(-1, 1);
@@ -83,7 +83,7 @@ TEST(Rbf, SolvesTheSystemThatThePaperPrints)
 
 TEST(Rbf, IsExactWhereANeighbourIs)
 {
-    Rbf predictor(tiny_step);
+    Rbf predictor(point_step);
     predictor.start(4);
     predictor.learn(std::vector{0.0, 1.0, 2.0, 5.0}, 2.0);
     predictor.learn(std::vector{3.0, 1.0, -1.0, 0.0}, -1.0);
@@ -92,7 +92,7 @@ TEST(Rbf, IsExactWhereANeighbourIs)
 
 TEST(Rbf, KeepsConstants)
 {
-    Rbf predictor(tiny_step);
+    Rbf predictor(point_step);
     predictor.start(3);
     predictor.learn(std::vector{0.0, 1.0, 4.0}, 20.0);
     EXPECT_NEAR(predictor.guess(std::vector{-2.5, -2.5, -2.5}), -2.5, 1e-12);
