@@ -81,11 +81,10 @@ Interpolation::Weights Interpolation::of_vertex(std::uint32_t v, MatrixView<cons
     for (std::size_t i = 0; i < result.count; ++i) {
         const std::uint32_t u = result.vertices[i] = near[i].vertex;
         const std::span<const double> its = C.row(u);
-        for (std::size_t k = 0; k < known; ++k) kriging.differences(k)[i] = its[k] - own[k];
+        for (std::size_t k = 0; k < known; ++k) kriging.differences(k)[i] = relevance_[k] * (its[k] - own[k]);
     }
     constexpr double nugget = 0.01, noise = 6.0;
-    result.values =
-        kriging.weights(result.count, std::span(relevance_).first(known), {law_.linear, nugget, noise * law_.step});
+    result.values = kriging.weights(result.count, known, {law_.linear, law_.squared_bend, nugget, noise * law_.step});
     return result;
 }
 
@@ -103,7 +102,7 @@ std::vector<double> relevance_of(std::span<const double> energies)
 {
     std::vector<double> relevance(energies.size(), 1.0);
     for (std::size_t k = 3; k < energies.size(); ++k)
-        relevance[k] = energies[k] > 0 ? std::sqrt(std::sqrt(energies[2] / energies[k])) : 0.0;
+        relevance[k] = energies[k] > 0 ? std::sqrt(std::sqrt(std::sqrt(energies[2] / energies[k]))) : 0.0;
     return relevance;
 }
 

@@ -16,9 +16,10 @@ namespace meshreel::codecs {
 
 /// How the weights of a segment are found; part of the payload.
 struct InterpolationLaw {
-    double linear = 150.0;    ///< predict::Likeness::linear
-    double step = 1.0;        ///< D: the noise of all that is known
-    std::uint32_t growth = 5; ///< batches grow by so many eighths of the components known; more is faster
+    double linear = 150.0;     ///< predict::Likeness::linear
+    double squared_bend = 1.0; ///< predict::Likeness::squared_bend
+    double step = 1.0;         ///< D: the noise of all that is known
+    std::uint32_t growth = 5;  ///< batches grow by so many eighths of the components known; more is faster
 };
 
 /// Orders the vertices of a surface by their first components, and weighs their neighbours by all that are known.
@@ -26,7 +27,7 @@ class Interpolation {
 public:
     static constexpr std::size_t most = predict::Kriging::most;
 
-    /// C [W x K]: columns 0 .. known-1 are known, the first three place the vertices. relevance: g_k of Kriging, [K].
+    /// C [W x K]: columns 0 .. known-1 are known, the first three place the vertices. relevance: see relevance_of, [K].
     Interpolation(MatrixView<const double> C, std::size_t known, std::vector<double> relevance, InterpolationLaw law,
                   Threads threads);
 
@@ -58,8 +59,8 @@ private:
     Threads threads_;
 };
 
-/// g_k of predict::Kriging for components of energies s_k^2: faint components are as telling as strong ones, nearly: the
-/// fourth root of s_2^2 / s_k^2; 1 for the first three.
+/// By how much components of energies s_k^2 count in distances: faint ones tell more than their size says. The fourth
+/// root of s_2 / s_k; 1 for the first three.
 std::vector<double> relevance_of(std::span<const double> energies);
 
 } // namespace meshreel::codecs

@@ -42,7 +42,7 @@ void PoseOrder::measure(MatrixView<const double> Y, std::size_t known)
         for (std::size_t f = 0; f < Y.rows; ++f)
             energy += Y(f, c) * Y(f, c) + Y(f, c + 1) * Y(f, c + 1) + Y(f, c + 2) * Y(f, c + 2);
         if (c == 3) first = energy;
-        const double relevance = energy > 0 && first > 0 ? std::sqrt(first / energy) : 0.0;
+        const double relevance = energy > 0 && first > 0 ? std::sqrt(std::sqrt(first / energy)) : 0.0;
         relevance_.insert(relevance_.end(), 3, relevance);
     }
 }
@@ -86,9 +86,10 @@ PoseOrder::Neighbours PoseOrder::nearest(std::size_t rank, std::size_t most, Mat
     for (std::size_t i = 0; i < result.count; ++i) {
         const std::size_t g = result.frames[i] = near[i].frame;
         kriging.differences(0)[i] = pace * (static_cast<double>(g) - static_cast<double>(f));
-        for (std::size_t k = 1; k < relevance_.size(); ++k) kriging.differences(k)[i] = Y(g, k + 2) - Y(f, k + 2);
+        for (std::size_t k = 1; k < relevance_.size(); ++k)
+            kriging.differences(k)[i] = relevance_[k] * (Y(g, k + 2) - Y(f, k + 2));
     }
-    result.weights = kriging.weights(result.count, relevance_, {100.0, 0.005, 0.0});
+    result.weights = kriging.weights(result.count, relevance_.size(), {100.0, 1.0, 0.005, 0.0});
     return result;
 }
 

@@ -34,6 +34,7 @@ struct ReelPayload {
         io.f64("origin_y", origin[1], container::finite, "likewise y");
         io.f64("origin_z", origin[2], container::finite, "likewise z");
         io.f64("linear", law.linear, {0.0, 1e6}, "trust in motions known already against smoothness");
+        io.f64("squared_bend", law.squared_bend, {1e-6, 1e6}, "c^2 of the multiquadric");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
         io.blob("basis_bits", basis_bits, container::any, "poses, see codecs/reel.md");
         io.blob("first_bits", first_bits, container::any, "coefficients 0, 1, 2, see codecs/reel.md");
@@ -143,7 +144,7 @@ private:
         coded.head.step = step_of(settings, pca_.singular_values, W);
         coded.head.first_step = settings.first_ratio * coded.head.step;
         coded.head.basis_step = settings.basis_ratio * coded.head.step;
-        coded.head.law = {settings.linear, coded.head.step, settings.growth};
+        coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth};
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);

@@ -43,7 +43,8 @@ struct Settings {
     double dead_zone = 0.5;                  ///< levels are 0 up to so many steps, [0.5, 1); 0.5 rounds
     double first_ratio = 1.0;                ///< step of the components that give the geometry over D, > 0 (reel)
     double linear = 150.0;                   ///< trust in motions known already against smoothness, >= 0 (reel)
-    std::uint32_t growth = 5;                ///< weights are found anew after so many eighths of the components known
+    double squared_bend = 1.0;               ///< up to which distance, squared, motions are smooth, > 0 (reel)
+    std::uint32_t growth = 8;                ///< weights are found anew after so many eighths of the components known
                                              ///< more; the more, the faster, >= 1 (reel)
     double basis_ratio = 1.0;                ///< beta: Q_m = beta D / sqrt(W), see basis_law; > 0
     BasisCoding basis = BasisCoding::cobra;

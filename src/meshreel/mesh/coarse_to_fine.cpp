@@ -62,17 +62,22 @@ public:
         : points_(std::move(points)), items_(points_.size()), leaf_(points_.size())
     {
         std::iota(items_.begin(), items_.end(), 0u);
-        level_of_.assign(points_.size(), untaken);
+        level_at_.assign(points_.size(), untaken);
+        place_.resize(points_.size());
         if (!points_.empty()) build({0, points_.size()}, nothing);
+        for (std::size_t i = 0; i < items_.size(); ++i) {
+            points_at_.push_back(points_[items_[i]]);
+            place_[items_[i]] = static_cast<std::uint32_t>(i);
+        }
     }
 
     void take(std::uint32_t point, std::uint32_t level)
     {
-        level_of_[point] = level;
+        level_at_[place_[point]] = level;
         for (std::uint32_t n = leaf_[point]; n != nothing && nodes_[n].earliest > level; n = nodes_[n].parent)
             nodes_[n].earliest = level;
     }
-    std::uint32_t level(std::uint32_t point) const { return level_of_[point]; }
+    std::uint32_t level(std::uint32_t point) const { return level_at_[place_[point]]; }
 
     /// The nearest points of levels below the limit.
     void search(std::uint32_t point, std::uint32_t limit, NearestList& found) const
@@ -149,8 +154,7 @@ private:
         const Node& node = nodes_[index];
         if (node.left == nothing) {
             for (std::size_t i = node.items.begin; i < node.items.end; ++i)
-                if (level_of_[items_[i]] < query.limit)
-                    found.offer(squared_distance(query.point, points_[items_[i]]), items_[i]);
+                if (level_at_[i] < query.limit) found.offer(squared_distance(query.point, points_at_[i]), items_[i]);
             return;
         }
         std::array<std::uint32_t, 2> child{node.left, node.right};
@@ -164,8 +168,9 @@ private:
             if (nodes_[child[i]].earliest < query.limit && away[i] < found.bound()) visit(child[i], query, found);
     }
 
-    std::vector<Point> points_;
-    std::vector<std::uint32_t> items_, leaf_, level_of_;
+    std::vector<Point> points_, points_at_;       ///< by number, by place in the tree
+    std::vector<std::uint32_t> items_, level_at_; ///< by place
+    std::vector<std::uint32_t> leaf_, place_;     ///< by number
     std::vector<Node> nodes_;
 };
 

@@ -9,7 +9,7 @@ namespace meshreel::predict {
 
 namespace {
 
-constexpr std::size_t most = Kriging::most;
+constexpr std::size_t most = Kriging::most, lanes = 4;
 using Square = std::array<std::array<double, most>, most>;
 using Column = std::array<double, most>;
 
@@ -20,99 +20,95 @@ using Column = std::array<double, most>;
 #define MESHREEL_WIDE
 #endif
 
-/// plain_ij = sum_k e_ik e_jk, relevant_ij = sum_k g_k e_ik e_jk.
-MESHREEL_WIDE void products(const double* __restrict e, std::span<const double> g, Square& plain, Square& relevant)
+/// G_ij = sum_k e_ik e_jk for j <= i, and somewhat beyond: four columns at a time.
+MESHREEL_WIDE void products(const double* __restrict e, std::size_t known, Square& G)
 {
     for (std::size_t i = 0; i < most; ++i)
-        for (std::size_t j = 0; j < most; ++j) plain[i][j] = relevant[i][j] = 0.0;
-    for (std::size_t k = 0; k < g.size(); ++k) {
-        const double* __restrict row = e + most * k;
-        for (std::size_t i = 0; i < most; ++i) {
-            const double a = row[i], b = g[k] * row[i];
-            for (std::size_t j = 0; j < most; ++j) plain[i][j] += a * row[j];
-            for (std::size_t j = 0; j < most; ++j) relevant[i][j] += b * row[j];
+        for (std::size_t j = 0; j <= i; j += lanes) {
+            double sums[lanes] = {};
+            for (std::size_t k = 0; k < known; ++k) {
+                const double* __restrict row = e + most * k;
+                for (std::size_t l = 0; l < lanes; ++l) sums[l] += row[i] * row[j + l];
+            }
+            for (std::size_t l = 0; l < lanes; ++l) G[i][j + l] = sums[l];
         }
-    }
 }
 
-/// phi(r) = r^1.75 of squared distances, in place: r^2 / (r^2)^(1/8).
-MESHREEL_WIDE void radial(double* __restrict squares, std::size_t count)
+/// Hardy's multiquadric sqrt(c^2 + r^2) - c of squared distances, in place.
+MESHREEL_WIDE void multiquadric(std::span<double> squares, double squared_bend)
 {
-    for (std::size_t i = 0; i < count; ++i) {
-        const double s = std::max(squares[i], 1e-30);
-        squares[i] = s / std::sqrt(std::sqrt(std::sqrt(s))); // (8.7)
-    }
+    const double bend = std::sqrt(squared_bend);
+    for (double& s : squares) s = std::sqrt(squared_bend + std::max(s, 0.0)) - bend;
 }
 
-/// Lower triangle of the Cholesky factor in place, its diagonal inverted.
-void factorise(Square& A, std::size_t n)
-{
-    for (std::size_t j = 0; j < n; ++j) {
-        double pivot = A[j][j];
-        for (std::size_t k = 0; k < j; ++k) pivot -= A[j][k] * A[j][k];
-        A[j][j] = 1.0 / std::sqrt(std::max(pivot, 1e-9));
-        for (std::size_t i = j + 1; i < n; ++i) {
-            double sum = A[i][j];
-            for (std::size_t k = 0; k < j; ++k) sum -= A[i][k] * A[j][k];
-            A[i][j] = sum * A[j][j];
-        }
-    }
-}
-
-void solve(const Square& factor, std::size_t n, Column& x)
-{
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < i; ++k) x[i] -= factor[i][k] * x[k];
-        x[i] *= factor[i][i];
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t k = i + 1; k < n; ++k) x[i] -= factor[k][i] * x[k];
-        x[i] *= factor[i][i];
-    }
-}
-
-/// The covariances of the neighbours with each other, and with the point.
+/// The covariances of the neighbours with each other, then two right sides: with the point, and ones.
 struct System {
-    Square A;
-    Column b;
+    static constexpr std::size_t width = most + lanes, with_point = most, ones = most + 1;
+    std::array<std::array<double, width>, most> rows; ///< upper triangle only
 };
 
-System system_of(const Square& plain, const Square& relevant, std::size_t n, const Likeness& likeness)
+System system_of(const Square& G, std::size_t n, const Likeness& likeness)
 {
     double distance = 0;
-    for (std::size_t i = 0; i < n; ++i) distance += std::sqrt(plain[i][i]);
+    for (std::size_t i = 0; i < n; ++i) distance += std::sqrt(G[i][i]);
     distance = std::max(distance / static_cast<double>(n), 1e-30);
     const double unit = 1.0 / (distance * distance), noise = likeness.nugget + likeness.noise / distance;
     std::array<double, most*(most + 1) / 2> phi; // of i and the point, then of i and j < i
     std::size_t count = 0;
-    for (std::size_t i = 0; i < n; ++i) phi[count++] = plain[i][i] * unit;
+    for (std::size_t i = 0; i < n; ++i) phi[count++] = G[i][i] * unit;
     for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < i; ++j) phi[count++] = (plain[i][i] + plain[j][j] - 2 * plain[i][j]) * unit;
-    radial(phi.data(), count);
+        for (std::size_t j = 0; j < i; ++j) phi[count++] = (G[i][i] + G[j][j] - 2 * G[i][j]) * unit;
+    multiquadric(std::span(phi).first(count), likeness.squared_bend);
     const double sill = 5 * *std::max_element(phi.begin(), phi.begin() + static_cast<std::ptrdiff_t>(count));
-    System system;
+    System system{};
     count = n;
     for (std::size_t i = 0; i < n; ++i) {
-        system.b[i] = sill - phi[i];
-        for (std::size_t j = 0; j < i; ++j)
-            system.A[i][j] = sill - phi[count++] + likeness.linear * unit * relevant[i][j];
-        system.A[i][i] = sill + likeness.linear * unit * relevant[i][i] + noise;
+        for (std::size_t j = 0; j < i; ++j) system.rows[j][i] = sill - phi[count++] + likeness.linear * unit * G[i][j];
+        system.rows[i][i] = sill + likeness.linear * unit * G[i][i] + noise;
+        system.rows[i][System::with_point] = sill - phi[i];
+        system.rows[i][System::ones] = 1.0;
     }
     return system;
 }
 
+/// Cholesky's U of A = U^T U in place, its diagonal inverted, and U^-T of the right sides.
+MESHREEL_WIDE void eliminate(System& system, std::size_t n)
+{
+    for (std::size_t j = 0; j < n; ++j) {
+        const double scale = 1.0 / std::sqrt(std::max(system.rows[j][j], 1e-9));
+        double* __restrict above = system.rows[j].data();
+        for (std::size_t c = 0; c < System::width; ++c) above[c] *= scale;
+        above[j] = scale;
+        for (std::size_t i = j + 1; i < n; ++i) {
+            const double factor = above[i];
+            double* __restrict row = system.rows[i].data();
+            for (std::size_t c = i / lanes * lanes; c < System::width; c += lanes)
+                for (std::size_t l = 0; l < lanes; ++l) row[c + l] -= factor * above[c + l];
+        }
+    }
+}
+
+/// U^-1 of a right side.
+Column substitute(const System& system, std::size_t n, std::size_t side)
+{
+    Column x{};
+    for (std::size_t i = n; i-- > 0;) {
+        double sum = system.rows[i][side];
+        for (std::size_t k = i + 1; k < n; ++k) sum -= system.rows[i][k] * x[k];
+        x[i] = sum * system.rows[i][i];
+    }
+    return x;
+}
+
 } // namespace
 
-std::array<double, most> Kriging::weights(std::size_t count, std::span<const double> g, const Likeness& likeness) const
+std::array<double, most> Kriging::weights(std::size_t count, std::size_t known, const Likeness& likeness) const
 {
-    Square plain, relevant;
-    products(e_.data(), g, plain, relevant);
-    System system = system_of(plain, relevant, count, likeness);
-    factorise(system.A, count);
-    Column free = system.b, ones;
-    ones.fill(1.0);
-    solve(system.A, count, free);
-    solve(system.A, count, ones);
+    Square G;
+    products(e_.data(), known, G);
+    System system = system_of(G, count, likeness);
+    eliminate(system, count);
+    const Column free = substitute(system, count, System::with_point), ones = substitute(system, count, System::ones);
     double free_sum = 0, ones_sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
         free_sum += free[i];

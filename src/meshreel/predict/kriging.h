@@ -11,17 +11,19 @@ namespace meshreel::predict {
 
 /// How alike values at two points are taken to be.
 struct Likeness {
-    double linear = 150.0; ///< weight of what is linear in the known values against what only is smooth, >= 0
-    double nugget = 0.01;  ///< noise of the neighbours' values, relative to the values' change over the mean distance
-    double noise = 0.0;    ///< noise that does not shrink with the distance: noise / mean distance adds to the nugget
+    double linear = 150.0;     ///< weight of what is linear in the known values against what only is smooth, >= 0
+    double squared_bend = 1.0; ///< c^2 of the multiquadric, > 0: the distance, squared, up to which values are smooth
+    double nugget = 0.01; ///< noise of the neighbours' values, relative to the values' change over the mean distance
+    double noise = 0.0;   ///< noise that does not shrink with the distance: noise / mean distance adds to the nugget
 };
 
 /// The neighbours of one point: what is known of each, less what is known of the point.
 ///
-/// With e_i the difference of neighbour i, covariances are c - |e_i - e_j|^1.75 + linear * sum_k g_k e_ik e_jk, all in
-/// units of the mean |e_i|, c beyond the largest; the best unbiased linear estimate follows from the n x n system. The
-/// first term is the radial function of (8.7); the second makes weights that reproduce, in the least squares sense,
-/// the values already known, as (8.5) does.
+/// With e_i the difference of neighbour i, in units of the mean |e_i|, covariances are a - phi(|e_i - e_j|) + linear *
+/// e_i . e_j with phi(r) = sqrt(c^2 + r^2) - c, a beyond its largest value; the best unbiased linear estimate follows
+/// from the n x n system. The first term interpolates as (8.7) does; the second makes weights that reproduce, in the
+/// least squares sense, the values already known, as (8.5) does.
+/// @source R. L. Hardy 1971 (multiquadrics); G. Matheron 1963 (kriging)
 class Kriging {
 public:
     static constexpr std::size_t most = 16; ///< neighbours
@@ -32,10 +34,9 @@ public:
     /// The differences of known value k, all neighbours' side by side; set every one before weights().
     std::span<double, most> differences(std::size_t k) { return std::span<double, most>(e_.data() + most * k, most); }
 
-    /// Weights of `count` neighbours, 1 <= count <= most, of sum 1, from known values 0 .. g.size()-1, g [dimensions
-    /// known] their relevance. + - * / sqrt only.
-    /// @cost O(most^2 dimensions + count^3).
-    std::array<double, most> weights(std::size_t count, std::span<const double> g, const Likeness& likeness) const;
+    /// Weights of `count` neighbours, 1 <= count <= most, of sum 1, from known values 0 .. known-1. + - * / sqrt only.
+    /// @cost O(most^2 known + count^3).
+    std::array<double, most> weights(std::size_t count, std::size_t known, const Likeness& likeness) const;
 
 private:
     std::vector<double> e_; ///< [dimensions x most]
