@@ -28,10 +28,8 @@ class NearestList {
 public:
     explicit NearestList(std::size_t most) : most_(most) { found_.reserve(most); }
 
-    double bound() const
-    {
-        return found_.size() < most_ ? std::numeric_limits<double>::infinity() : found_.back().distance;
-    }
+    /// Only nearer points are of interest.
+    double bound() const { return found_.size() < most_ ? limit_ : found_.back().distance; }
     void offer(double distance, std::uint32_t point)
     {
         if (!(distance < bound())) return;
@@ -40,7 +38,11 @@ public:
         for (std::size_t i = found_.size() - 1; i > 0 && distance < found_[i - 1].distance; --i)
             std::swap(found_[i], found_[i - 1]);
     }
-    void clear() { found_.clear(); }
+    void clear(double limit)
+    {
+        found_.clear();
+        limit_ = limit;
+    }
     std::size_t size() const { return found_.size(); }
     std::uint32_t point(std::size_t i) const { return found_[i].point; }
     double distance(std::size_t i) const { return found_[i].distance; }
@@ -51,6 +53,7 @@ private:
         std::uint32_t point;
     };
     std::size_t most_;
+    double limit_ = 0.0;
     std::vector<Candidate> found_;
 };
 
@@ -79,11 +82,10 @@ public:
     }
     std::uint32_t level(std::uint32_t point) const { return level_at_[place_[point]]; }
 
-    /// The nearest points of levels below the limit.
+    /// The nearest points of levels below the limit, as far as `found` is interested.
     void search(std::uint32_t point, std::uint32_t limit, NearestList& found) const
     {
-        found.clear();
-        if (!nodes_.empty()) visit(0, {points_[point], limit}, found);
+        visit(0, {points_[point], limit}, found);
     }
 
 private:
@@ -211,13 +213,16 @@ void take_all(TakenTree& tree, const std::vector<double>& squares, CoarseToFine&
     std::vector<std::vector<std::uint32_t>> waiting(level_count);
     waiting[0].resize(result.nearest.rows);
     std::iota(waiting[0].begin(), waiting[0].end(), 0u);
+    std::vector<double> nearest(result.nearest.rows, std::numeric_limits<double>::infinity());
     NearestList found(1);
     for (std::size_t l = 0; l < level_count; ++l) {
         std::sort(waiting[l].begin(), waiting[l].end());
         for (const std::uint32_t point : waiting[l]) {
+            found.clear(nearest[point]);
             tree.search(point, untaken, found);
+            if (found.size() != 0) nearest[point] = found.distance(0);
             std::size_t level = l;
-            while (found.size() != 0 && found.distance(0) < squares[level]) ++level;
+            while (nearest[point] < squares[level]) ++level;
             if (level > l) {
                 waiting[level].push_back(point);
                 continue;
@@ -248,6 +253,7 @@ CoarseToFine coarse_to_fine(MatrixView<const double> X, std::size_t n, Threads t
         NearestList found(n);
         for (std::size_t p = task * block; p < std::min(X.rows, (task + 1) * block); ++p) {
             const auto point = static_cast<std::uint32_t>(p);
+            found.clear(std::numeric_limits<double>::infinity());
             tree.search(point, tree.level(point), found);
             for (std::size_t i = 0; i < found.size(); ++i) result.nearest(p, i) = found.point(i);
         }

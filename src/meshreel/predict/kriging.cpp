@@ -53,15 +53,19 @@ System system_of(const Square& G, std::size_t n, const Likeness& likeness)
     for (std::size_t i = 0; i < n; ++i) distance += std::sqrt(G[i][i]);
     distance = std::max(distance / static_cast<double>(n), 1e-30);
     const double unit = 1.0 / (distance * distance), noise = likeness.nugget + likeness.noise / distance;
-    std::array<double, most*(most + 1) / 2> phi; // of i and the point, then of i and j < i
+    std::array<double, most*(most + 1) / 2 + 1> phi; // of i and the point, then of i and j < i, then a bound of all
     std::size_t count = 0;
     for (std::size_t i = 0; i < n; ++i) phi[count++] = G[i][i] * unit;
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < i; ++j) phi[count++] = (G[i][i] + G[j][j] - 2 * G[i][j]) * unit;
+    double farthest = 0;
+    for (std::size_t i = 0; i < n; ++i) farthest = std::max(farthest, G[i][i]);
+    phi[count++] = 4 * farthest * unit; // no two neighbours are farther apart
     multiquadric(std::span(phi).first(count), likeness.squared_bend);
-    const double sill = 5 * *std::max_element(phi.begin(), phi.begin() + static_cast<std::ptrdiff_t>(count));
+    const double sill = 3 * phi[count - 1];
     System system{};
-    count = n;
+    count = n; // the pairs'
+
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < i; ++j) system.rows[j][i] = sill - phi[count++] + likeness.linear * unit * G[i][j];
         system.rows[i][i] = sill + likeness.linear * unit * G[i][i] + noise;
