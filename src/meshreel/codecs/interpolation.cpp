@@ -32,21 +32,11 @@ double squared_distance_of(std::span<const double> a, std::span<const double> b,
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// The first three components as points; those that are missing count as 0.
-Matrix<double> places_of(MatrixView<const double> C, std::size_t known)
-{
-    Matrix<double> places(C.rows, 3);
-    for (std::size_t v = 0; v < C.rows; ++v)
-        for (std::size_t k = 0; k < std::min<std::size_t>(known, 3); ++k) places(v, k) = C(v, k);
-    return places;
-}
-
 } // namespace
 
-Interpolation::Interpolation(MatrixView<const double> C, std::size_t known, std::vector<double> relevance,
-                             InterpolationLaw law, Threads threads)
-    : order_(coarse_to_fine(places_of(C, known).view(), candidates, threads)), relevance_(std::move(relevance)),
-      law_(law), threads_(threads)
+Interpolation::Interpolation(MatrixView<const double> first, std::vector<double> relevance, InterpolationLaw law,
+                             Threads threads)
+    : order_(coarse_to_fine(first, candidates, threads)), relevance_(std::move(relevance)), law_(law), threads_(threads)
 {
 }
 

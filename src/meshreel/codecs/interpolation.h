@@ -27,9 +27,8 @@ class Interpolation {
 public:
     static constexpr std::size_t most = predict::Kriging::most;
 
-    /// C [W x K]: columns 0 .. known-1 are known, the first three place the vertices. relevance: see relevance_of, [K].
-    Interpolation(MatrixView<const double> C, std::size_t known, std::vector<double> relevance, InterpolationLaw law,
-                  Threads threads);
+    /// first [W x 3]: the first components, which place the vertices. relevance: see relevance_of, [K].
+    Interpolation(MatrixView<const double> first, std::vector<double> relevance, InterpolationLaw law, Threads threads);
 
     const CoarseToFine& order() const { return order_; }
 

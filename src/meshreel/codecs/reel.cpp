@@ -83,6 +83,14 @@ WeighedBasis basis_of(MatrixView<const double> Y, const ReelPayload& head, doubl
     return result;
 }
 
+/// The components that place the vertices, [W x 3]; C has more.
+Matrix<double> first_of(MatrixView<const double> C)
+{
+    Matrix<double> first(C.rows, first_components);
+    for (std::size_t v = 0; v < C.rows; ++v) std::copy_n(C.row(v).data(), first_components, first.row(v).data());
+    return first;
+}
+
 /// Calls body(core) to write, and returns the bytes.
 template <class Body>
 Bytes range_written(const Body& body)
@@ -172,7 +180,8 @@ private:
             SurfaceWalk(core, sequence_.surface, {coded.head.first_step, settings.dead_zone}).code(first, C, L.view());
         });
         if (C.cols == first) return bits;
-        const Interpolation interpolation(C, first, relevance_of(coded.energies), coded.head.law, settings.threads);
+        const Interpolation interpolation(first_of(C).view(), relevance_of(coded.energies), coded.head.law,
+                                          settings.threads);
         bits.levels = range_written([&](coding::RangeEncoder& core) {
             LevelWalk(core, interpolation, {coded.head.step, settings.dead_zone}).code(first, C, L.view());
         });
@@ -229,7 +238,8 @@ Result<Trajectories> open_reel(const Coded& coded)
         SurfaceWalk(core, coded.surface, coding::Quantiser{head.first_step}).code(first, result.C.view(), L.view());
     }));
     if (K == first) return result;
-    const Interpolation interpolation(result.C.view(), first, relevance_of(weighed.energies), head.law, coded.threads);
+    const Interpolation interpolation(first_of(result.C.view()).view(), relevance_of(weighed.energies), head.law,
+                                      coded.threads);
     MESHREEL_CHECK(range_read(source, head.level_bits, "level_bits", [&](coding::RangeDecoder& core) {
         LevelWalk(core, interpolation, coding::Quantiser{head.step}).code(first, result.C.view(), L.view());
     }));

@@ -15,9 +15,9 @@ using Point = std::array<double, 3>;
 
 constexpr std::uint32_t untaken = 0xffffffff;
 constexpr std::size_t level_count = 160; // 1.1^160 is 4 million
-constexpr std::size_t leaf_size = 8;
+constexpr std::size_t crowd = 8;
 
-double squared_distance(const Point& a, const Point& b)
+double square_between(const Point& a, const Point& b)
 {
     const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
     return x * x + y * y + z * z;
@@ -114,7 +114,7 @@ private:
                 nodes_[index].low[c] = std::min(nodes_[index].low[c], points_[items_[i]][c]);
                 nodes_[index].high[c] = std::max(nodes_[index].high[c], points_[items_[i]][c]);
             }
-        if (range.end - range.begin <= leaf_size) {
+        if (range.end - range.begin <= crowd) {
             const auto first = items_.begin() + static_cast<std::ptrdiff_t>(range.begin);
             std::sort(first, first + static_cast<std::ptrdiff_t>(range.end - range.begin));
             for (std::size_t i = range.begin; i < range.end; ++i) leaf_[items_[i]] = index;
@@ -156,7 +156,7 @@ private:
         const Node& node = nodes_[index];
         if (node.left == nothing) {
             for (std::size_t i = node.items.begin; i < node.items.end; ++i)
-                if (level_at_[i] < query.limit) found.offer(squared_distance(query.point, points_at_[i]), items_[i]);
+                if (level_at_[i] < query.limit) found.offer(square_between(query.point, points_at_[i]), items_[i]);
             return;
         }
         std::array<std::uint32_t, 2> child{node.left, node.right};
@@ -197,7 +197,7 @@ std::vector<double> squared_spacings(const std::vector<Point>& points)
             high[c] = std::max(high[c], p[c]);
         }
     std::vector<double> squares(level_count);
-    double square = 0.25 * squared_distance(low, high);
+    double square = 0.25 * square_between(low, high);
     for (double& s : squares) {
         s = square;
         square = square / 1.21;
