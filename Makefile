@@ -24,7 +24,7 @@ bench:          ## speeds and memory
 	cmake --build build-bench
 	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
 
-bench-rate: build   ## rates at given errors, and bench/ledger.csv
+bench-rate: build   ## rates at given errors beside what they must be, and bench/ledger.csv
 	bench/rate.py --ledger bench/ledger.csv
 
 figures:        ## the thesis' tables and figures, measured: docs/thesis-figures.md; DATA=FOLDER where the sequences are elsewhere

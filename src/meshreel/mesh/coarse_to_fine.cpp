@@ -17,7 +17,7 @@ constexpr std::uint32_t untaken = 0xffffffff;
 constexpr std::size_t level_count = 160; // 1.1^160 is 4 million
 constexpr std::size_t crowd = 8;
 
-double square_between(const Point& a, const Point& b)
+double squared_gap(const Point& a, const Point& b)
 {
     const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
     return x * x + y * y + z * z;
@@ -156,7 +156,7 @@ private:
         const Node& node = nodes_[index];
         if (node.left == nothing) {
             for (std::size_t i = node.items.begin; i < node.items.end; ++i)
-                if (level_at_[i] < query.limit) found.offer(square_between(query.point, points_at_[i]), items_[i]);
+                if (level_at_[i] < query.limit) found.offer(squared_gap(query.point, points_at_[i]), items_[i]);
             return;
         }
         std::array<std::uint32_t, 2> child{node.left, node.right};
@@ -197,7 +197,7 @@ std::vector<double> squared_spacings(const std::vector<Point>& points)
             high[c] = std::max(high[c], p[c]);
         }
     std::vector<double> squares(level_count);
-    double square = 0.25 * square_between(low, high);
+    double square = 0.25 * squared_gap(low, high);
     for (double& s : squares) {
         s = square;
         square = square / 1.21;
