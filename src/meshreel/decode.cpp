@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "meshreel/base/text.h"
-#include "meshreel/codecs/codec.h"
-#include "meshreel/connectivity/topology.h"
+#include "meshreel/codecs/opening.h"
 #include "meshreel/container/explain.h"
 #include "meshreel/container/package.h"
 #include "meshreel/meshreel.h"
@@ -16,43 +14,6 @@ namespace {
 
 using container::Header;
 using container::StreamReader;
-
-Status check_base(const Header& header, const Animation* base)
-{
-    if (header.order != Order::base) return Ok{};
-    if (base == nullptr)
-        return Error{ErrorCode::usage, "was made with a base mesh, which must be given to decode it", "base", {}, {}};
-    const bool same = base->vertex_count == header.vertex_count &&
-                      container::fingerprint_of(base->vertex_count, base->triangles) == header.base_fingerprint;
-    if (same) return Ok{};
-    return Error{ErrorCode::usage, "the base mesh given is not the one the file was made with", "base", {}, {}};
-}
-
-Result<connectivity::Topology> read_topology(const StreamReader& file, const Header& header, const Animation* base)
-{
-    MESHREEL_CHECK(check_base(header, base));
-    const container::Chunk* chunk = file.find(container::type::conn);
-    if (chunk == nullptr) return bad_input("the file has no such chunk", "CONN");
-    const std::span<const Triangle> base_triangles = base == nullptr ? std::span<const Triangle>() : base->triangles;
-    Result<connectivity::Topology> topology = connectivity::decode(chunk->payload, base_triangles, file.limits());
-    if (!topology.ok()) {
-        Error error = std::move(topology).error();
-        error.field = error.field.empty() ? "CONN" : "CONN." + error.field;
-        error.place = at_byte(chunk->offset + (error.place ? error.place->number : 0));
-        return error;
-    }
-    if (topology->vertex_count != header.vertex_count || topology->surface.vertex_count != header.coded_vertex_count ||
-        topology->triangles.size() != header.triangle_count)
-        return bad_input("holds other counts than the header", "CONN", at_byte(chunk->offset));
-    return topology;
-}
-
-Result<const codecs::Codec*> codec_of(const Header& header)
-{
-    const codecs::Codec* codec = codecs::find(header.codec);
-    if (codec == nullptr) return unsupported(concat("there is no codec \"", header.codec, "\""), "HEAD.codec");
-    return codec;
-}
 
 /// Gives each of the V vertices the trajectory of its surface vertex.
 std::vector<float> spread(const Matrix<float>& frames, std::span<const std::uint32_t> surface_of)
@@ -83,8 +44,8 @@ Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
     const std::uint64_t most = std::min(options.limits.max_frames, options.limits.max_memory / 12 / vertices);
     MESHREEL_TRY(ShownFrames shown, shown_frames(times, animation.meta, options, most));
     MESHREEL_CHECK(within(options.limits, vertices, header.triangle_count, shown.mixes.size()));
-    MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
-    MESHREEL_TRY(connectivity::Topology topology, read_topology(file, header, options.base));
+    MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
+    MESHREEL_TRY(connectivity::Topology topology, codecs::read_topology(file, header, options.base));
     MESHREEL_TRY(const Matrix<float> frames, pose_frames({*codec, segments, topology.surface, options}, shown));
     animation.positions = spread(frames, topology.surface_of);
     animation.triangles = std::move(topology.triangles);
@@ -168,7 +129,7 @@ Result<std::string> explain(ByteView reel, const DecodeLimits& limits)
             if (type == container::type::conn)
                 return container::explain_fields<connectivity::PayloadFields>(payload, limits, lines);
             if (type != container::type::segm) return Ok{};
-            MESHREEL_TRY(const codecs::Codec* codec, codec_of(header));
+            MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
             return codec->explain(payload, limits, lines);
         });
 }
