@@ -23,6 +23,7 @@ bench:          ## speeds and memory
 	cmake --preset bench
 	cmake --build build-bench
 	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
+	build-bench/bench/bench_player
 
 bench-rate: build   ## rates at given errors beside what they must be, and bench/ledger.csv
 	bench/rate.py --ledger bench/ledger.csv

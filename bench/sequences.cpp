@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,58 +11,24 @@
 #include <Eigen/Dense>
 
 #include "bench/measured.h"
+#include "bench/sources.h"
 #include "meshreel/linalg/pca.h"
-#include "meshreel/mesh/shapes.h"
 #include "meshreel/meshreel.h"
 
-namespace fs = std::filesystem;
 using namespace meshreel;
 using bench::measure_apart;
 using bench::Measured;
+using bench::must;
+using bench::Source;
 
 namespace {
 
 struct Settings {
-    fs::path data = fs::path(MESHREEL_SOURCE_DIR) / "../shared/data";
+    std::string data = bench::usual_data;
     std::string csv;
     std::string only; ///< a part of the names wanted; empty: all
     Threads threads{1};
 };
-
-/// A sequence that can be had again in every child process.
-struct Source {
-    std::string name;
-    std::function<Animation()> load;
-};
-
-template <class T>
-T must(Result<T> result)
-{
-    if (!result.ok()) throw std::runtime_error(result.error().sentence());
-    return *std::move(result);
-}
-
-std::vector<Source> sources(const Settings& settings)
-{
-    std::vector<Source> all;
-    for (const char* name :
-         {"dance", "chicken", "cow", "crane", "horse_gallop", "walker", "cloth", "flag", "snake", "dolphin", "bone"}) {
-        const fs::path folder = settings.data / name;
-        if (!fs::exists(folder / "motion.pc2")) {
-            std::fprintf(stderr, "%s: skipped, its data are not here\n", name);
-            continue;
-        }
-        all.push_back({name, [folder] {
-                           io::LoadOptions options;
-                           options.mesh = (folder / "mesh.obj").string();
-                           return must(io::load((folder / "motion.pc2").string(), options));
-                       }});
-    }
-    for (const shapes::Shape& shape : shapes::all())
-        all.push_back({"made:" + std::string(shape.name), [&shape] { return must(shapes::generate(shape)); }});
-    std::erase_if(all, [&](const Source& s) { return s.name.find(settings.only) == std::string::npos; });
-    return all;
-}
 
 /// One line of the table. Rates are megabytes of float32 positions a second.
 struct Row {
@@ -237,7 +202,7 @@ int run(int count, char** texts)
         "%7s %8s %8s %8s %8s %8s %8s %7s %6s\n",
         settings.threads.used(), "sequence", "V", "F", "MB", "K", "bpfv", "encode", "decode", "memcpy", "product",
         "enc.pkMB", "dec.pkMB", "PCA s", "PCA x");
-    for (const Source& source : sources(settings)) print(measure(source, settings), csv);
+    for (const Source& source : bench::sources(settings.data, settings.only)) print(measure(source, settings), csv);
     return csv == nullptr || std::fclose(csv) == 0 ? 0 : 1;
 }
 
