@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz bench bench-rate figures format docs clean
+.PHONY: build demo check test fuzz bench bench-effort bench-rate figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -24,6 +24,9 @@ bench:          ## speeds and memory
 	cmake --build build-bench
 	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
 	build-bench/bench/bench_player
+
+bench-effort: build ## the table of docs/effort.md
+	bench/effort.py --write
 
 bench-rate: build   ## rates at given errors beside what they must be, and bench/ledger.csv
 	bench/rate.py --ledger bench/ledger.csv

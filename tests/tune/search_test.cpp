@@ -100,6 +100,7 @@ TEST(Search, SaysSoWhenNoStepReachesTheTarget)
     Model model;
     tune::Problem stuck = model.problem();
     stuck.attempt = [](const codecs::Settings& settings) -> Result<tune::Attempt> {
+        EXPECT_TRUE(settings.step > 0 && std::isfinite(settings.step));
         return tune::Attempt{settings, 100.0, 1.0, {}, 3, 1.0};
     };
     const auto best = tune::cheapest(stuck, {.step = 1.0});

@@ -19,11 +19,11 @@ constexpr std::array<EffortRow, most_effort> effort_rows{{
     {16, 0, 1},
     {8, 0, 1},
     {5, 0, 1},
-    {5, 2, 1},
+    {5, 1, 1},
     {5, 3, 1},
-    {4, 4, 1},
+    {5, 4, 1},
     {4, 5, 1},
-    {3, 5, 2},
+    {3, 5, 3},
 }};
 
 } // namespace
@@ -34,15 +34,15 @@ Plan plan_of(int effort, Tune tune)
     Plan plan;
     // Errors of the basis are smooth over the surface, and so are components left out: STED hardly sees them.
     plan.start.truncation = tune == Tune::sted ? 0.9 : 0.4;
-    plan.start.basis_ratio = tune == Tune::sted ? 2.8 : 1.2;
+    plan.start.basis_ratio = tune == Tune::sted ? 2.8 : 1.4;
     plan.start.first_ratio = tune == Tune::sted ? 0.45 : 1.0;
-    plan.start.dead_zone = tune == Tune::sted ? 0.6 : 0.5;
+    plan.start.dead_zone = tune == Tune::sted ? 0.6 : 0.54;
     plan.start.growth = row.growth;
-    plan.knobs = {{&codecs::Settings::truncation, 1.3, 0.05, 2.0},
+    plan.knobs = {{&codecs::Settings::linear, 3.0, 10.0, 4000.0}, // the one whose best differs most between motions
                   {&codecs::Settings::basis_ratio, 1.3, 0.2, tune == Tune::sted ? 2.8 : 2.0},
-                  {&codecs::Settings::first_ratio, 1.25, 0.2, 2.0},
-                  {&codecs::Settings::linear, 2.5, 10.0, 2000.0},
-                  {&codecs::Settings::dead_zone, 1.06, 0.5, 0.75}};
+                  {&codecs::Settings::truncation, 1.3, 0.05, 2.0},
+                  {&codecs::Settings::dead_zone, 1.06, 0.5, 0.75},
+                  {&codecs::Settings::first_ratio, 1.25, 0.2, 2.0}};
     plan.knobs.resize(row.knobs);
     plan.rounds = row.rounds;
     return plan;

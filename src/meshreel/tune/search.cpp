@@ -57,7 +57,7 @@ public:
         const Point near = nearest()[0];
         const auto [fine, coarse] = bracket();
         const double jump = std::clamp((goal - near.y) / slope(), -4.0, 4.0);
-        if (!std::isfinite(coarse - fine)) return std::exp(sign_ * (near.x + boldness() * jump));
+        if (!std::isfinite(coarse - fine)) return std::exp(sign_ * within_reach(near.x + boldness() * jump));
         const double x = near.x + jump, margin = 0.05 * (coarse - fine);
         if (!(x > fine + margin && x < coarse - margin)) return std::exp(sign_ * 0.5 * (fine + coarse));
         return std::exp(sign_ * x);
@@ -91,6 +91,13 @@ private:
 
     /// Larger and larger jumps where none has crossed the limit yet: an excess may stay the same for a while.
     double boldness() const { return std::exp2(std::max(0.0, static_cast<double>(points_.size()) - 3.0)); }
+
+    /// Steps stay numbers.
+    double within_reach(double x) const
+    {
+        constexpr double reach = 60.0;
+        return std::clamp(x, points_.front().x - reach, points_.front().x + reach);
+    }
 
     static double logarithm(double excess) { return excess > 0 ? std::max(std::log(excess), -40.0) : -40.0; }
 
@@ -138,7 +145,7 @@ private:
     /// An attempt near the limit on either side, and what excess costs there: from two attempts that differ enough.
     Result<Attempt> approach(Settings settings, Line& line)
     {
-        constexpr int most_attempts = 8;
+        constexpr int most_attempts = 4;
         constexpr double near_enough = 0.1, telling = 0.05, other_step = 0.87;
         MESHREEL_TRY(Attempt attempt, attempted(settings));
         for (int i = 1; i < most_attempts && !line.flat(); ++i) {
