@@ -88,6 +88,22 @@ TEST(Player, ShowsEveryKindOfMeshWithItsWeldedAndIsolatedVertices)
     }
 }
 
+TEST(Player, PosesWeldedVerticesOnceWhereTrianglesShareNone)
+{
+    const Animation whole = wave();
+    Animation split = whole;
+    split.vertex_count = static_cast<std::uint32_t>(3 * whole.triangles.size());
+    split.positions.clear();
+    split.appearance = {};
+    for (std::size_t f = 0; f < whole.frame_count(); ++f)
+        for (const Triangle& triangle : whole.triangles)
+            for (const std::uint32_t v : triangle)
+                split.positions.insert(split.positions.end(), &whole.frame(f)[3 * v], &whole.frame(f)[3 * v] + 3);
+    for (std::uint32_t t = 0; t < split.triangles.size(); ++t) split.triangles[t] = {3 * t, 3 * t + 1, 3 * t + 2};
+    const Bytes reel = reel_of(split);
+    EXPECT_LE(farthest(*decode(reel), played(*Player::open(reel))), promised);
+}
+
 TEST(Player, TakesABaseMeshForItsOrderAndFailsWithoutIt)
 {
     const Animation animation = wave();

@@ -78,7 +78,9 @@ void Player::order_vertices(std::span<const std::uint32_t> surface_of, std::uint
         }
         unique_of_.push_back(place[w]);
     }
-    if (unique_.size() == surface_of.size()) unique_of_.clear();
+    if (4 * surface_of.size() > 5 * unique_.size()) return;
+    unique_.assign(surface_of.begin(), surface_of.end()); // posing a few vertices twice is faster than copying them
+    unique_of_.clear();
 }
 
 Status Player::open_segments(container::SegmentSource& segments, const codecs::Codec& codec,
@@ -206,9 +208,9 @@ void Player::pose_frames(std::size_t first, std::span<float> out) const
 {
     const std::size_t numbers = 3ul * vertex_count_, count = out.size() / numbers;
     assert(out.size() == count * numbers && first + count <= frame_count());
+    constexpr std::size_t at_once = 16; // as many as the processor keeps pages of at hand
     for (std::size_t i = 0; i < count;) {
-        const Piece& piece = pieces_[piece_of(first + i)];
-        const std::size_t end = std::min(count, piece.first + piece.count - first);
+        const std::size_t end = std::min(count, i + at_once);
         for (std::size_t b = 0; b < blocks(); ++b) // the coefficients of a block stay in the nearest cache
             for (std::size_t j = i; j < end; ++j) pose_block(stored(first + j), b, out.data() + j * numbers);
         for (; i < end; ++i) spread(out.data() + i * numbers);

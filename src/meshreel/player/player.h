@@ -88,11 +88,12 @@ private:
     std::vector<Triangle> triangles_;
     Metadata metadata_;
     Kernel kernel_;
-    std::vector<std::uint32_t> unique_;    ///< surface vertices in the order of their first output vertex
-    std::vector<std::uint32_t> unique_of_; ///< [V] place in unique_, not above v; empty where no vertices are welded
-    std::vector<Piece> pieces_;            ///< by first frame
-    Matrix<double> means_;                 ///< [F x 3]
-    std::vector<float> mixed_;             ///< [4 x 3 K], bases of the frames sought
+    std::vector<std::uint32_t> unique_; ///< [U] surface vertices to pose, in the order of their output vertices
+    std::vector<std::uint32_t>
+        unique_of_;             ///< [V] place in unique_, not above v; empty: few are welded, all V are posed
+    std::vector<Piece> pieces_; ///< by first frame
+    Matrix<double> means_;      ///< [F x 3]
+    std::vector<float> mixed_;  ///< [4 x 3 K], bases of the frames sought
     FrameTerms sought_;
 };
 
