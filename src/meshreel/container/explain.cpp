@@ -41,7 +41,7 @@ std::string hex(std::uint8_t byte)
     return {digits[byte >> 4], digits[byte & 15]};
 }
 
-std::string quoted(ByteView text)
+std::string in_quotes(ByteView text)
 {
     constexpr std::size_t longest = 80;
     std::string all = "\"";
@@ -98,7 +98,7 @@ ByteView Explainer::bytes(const Field& field, ByteView expected)
 {
     const std::uint64_t begin = reader_.offset();
     const ByteView value = reader_.bytes(field, expected);
-    line(field, begin, field.encoding == Encoding::text ? quoted(value) : dump(value));
+    line(field, begin, field.encoding == Encoding::text ? in_quotes(value) : dump(value));
     return value;
 }
 

@@ -111,7 +111,7 @@ Result<std::size_t> ObjReader::numbers(std::string_view field)
     std::size_t count = 0;
     for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word()) {
         const auto number = to_float(word);
-        if (!number) return bad_input(quoted(word) + " is not a number", std::string(field), here());
+        if (!number) return bad_input(in_quotes(word) + " is not a number", std::string(field), here());
         if (count == row_.size()) return bad_input("too many numbers", std::string(field), here());
         row_[count++] = *number;
     }
@@ -153,7 +153,7 @@ Status ObjReader::row(CornerTable& table, std::size_t fewest, std::size_t most)
 Result<std::uint32_t> ObjReader::index(std::string_view word, CornerTable& table)
 {
     const auto number = to_integer(word);
-    if (!number) return bad_input(quoted(word) + " is not an index", "f", here());
+    if (!number) return bad_input(in_quotes(word) + " is not an index", "f", here());
     const auto count = static_cast<std::int64_t>(table.count);
     if (*number == 0 || *number < -count)
         return bad_input(concat("index ", *number, " where ", count, " '", table.field, "' lines came before"), "f",
@@ -225,17 +225,17 @@ Status ObjReader::other_statement(std::string_view keyword)
         const std::string_view word = lines_.word();
         const auto number = to_integer(word);
         if (word != "off" && (!number || *number < 0 || *number >= no_value))
-            return bad_input(quoted(word) + " is not a smoothing group", "s", here());
+            return bad_input(in_quotes(word) + " is not a smoothing group", "s", here());
         smoothing_ = number ? static_cast<std::uint32_t>(*number) : 0;
     } else if (keyword == "mtllib") {
         mesh_.appearance.assets.push_back({std::string(lines_.rest()), "model/mtl", {}});
     } else if (known != left_out.end()) {
         ++left_out_[known->what];
     } else if (std::ranges::any_of(keyword, [](char c) { return static_cast<unsigned char>(c) < ' '; })) {
-        return bad_input(quoted(keyword) + " is no statement of an OBJ file", {}, here());
+        return bad_input(in_quotes(keyword) + " is no statement of an OBJ file", {}, here());
     } else if (unknown_++ == 0) {
         unknown_line_ = lines_.line();
-        unknown_word_ = quoted(keyword);
+        unknown_word_ = in_quotes(keyword);
     }
     return Ok{};
 }

@@ -92,11 +92,11 @@ Status OffReader::first_word(std::string_view word)
     has_colors_ = take("C");
     has_normals_ = take("N");
     if (rest.starts_with("4") || rest.starts_with("n"))
-        return unsupported(quoted(word) + " has not three dimensions", "signature");
+        return unsupported(in_quotes(word) + " has not three dimensions", "signature");
     if (rest == "OFF") return Ok{};
     pending_ = word;
     if (to_integer(word) && rest == word) return Ok{}; // the first word may be missing
-    return bad_input("this is no OFF file: it begins with " + quoted(word), "signature", here());
+    return bad_input("this is no OFF file: it begins with " + in_quotes(word), "signature", here());
 }
 
 Result<std::uint64_t> OffReader::count(std::string_view field)
@@ -105,7 +105,7 @@ Result<std::uint64_t> OffReader::count(std::string_view field)
     if (word.empty()) word = lines_.word();
     while (word.empty() && next_row()) word = lines_.word();
     const auto number = to_integer(word);
-    if (!number || *number < 0) return bad_input(quoted(word) + " is not a count", std::string(field), here());
+    if (!number || *number < 0) return bad_input(in_quotes(word) + " is not a count", std::string(field), here());
     return static_cast<std::uint64_t>(*number);
 }
 
@@ -138,8 +138,8 @@ Result<float> OffReader::number(std::string_view field)
     const std::string_view word = lines_.word();
     const auto value = to_float(word);
     if (value) return *value;
-    return bad_input(word.empty() ? "the line ends too early" : quoted(word) + " is not a number", std::string(field),
-                     here());
+    return bad_input(word.empty() ? "the line ends too early" : in_quotes(word) + " is not a number",
+                     std::string(field), here());
 }
 
 /// Up to `most` numbers: the colour of a vertex or face.
@@ -152,7 +152,7 @@ Status OffReader::color(Colors& colors, std::string_view field, std::size_t most
         if (word.empty()) break;
         const auto value = to_float(word);
         const auto integer = to_integer(word);
-        if (!value) return bad_input(quoted(word) + " is not a number", std::string(field), here());
+        if (!value) return bad_input(in_quotes(word) + " is not a number", std::string(field), here());
         colors.whole = colors.whole && integer && *integer >= 0 && *integer <= 255;
         colors.above_one = colors.above_one || *value > 1.0f;
         row[n] = *value;
@@ -202,7 +202,7 @@ Status OffReader::face()
         if (word.empty())
             return bad_input(concat("the line ends after ", i, " of ", corners, " corners"), "face", here());
         if (!index || *index < 0 || *index >= mesh_.vertex_count)
-            return bad_input(concat(quoted(word), " is not one of the ", mesh_.vertex_count, " vertices"), "face",
+            return bad_input(concat(in_quotes(word), " is not one of the ", mesh_.vertex_count, " vertices"), "face",
                              here());
         polygon_.push_back(static_cast<std::uint32_t>(*index));
     }

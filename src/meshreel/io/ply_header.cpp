@@ -56,8 +56,8 @@ Status HeaderReader::format()
     else if (coding == "binary_big_endian")
         header_.coding = PlyCoding::big;
     else
-        return wrong(quoted(coding) + " is no format of a PLY file", "format");
-    if (version != "1.0") return wrong("version " + quoted(version) + "; 1.0 is known", "format");
+        return wrong(in_quotes(coding) + " is no format of a PLY file", "format");
+    if (version != "1.0") return wrong("version " + in_quotes(version) + "; 1.0 is known", "format");
     has_format_ = true;
     return Ok{};
 }
@@ -68,10 +68,10 @@ Status HeaderReader::element()
     element.name = lines_.word();
     const std::string_view word = lines_.word();
     const auto count = to_integer(word);
-    if (!count || *count < 0) return wrong(quoted(word) + " is not a count", "element");
+    if (!count || *count < 0) return wrong(in_quotes(word) + " is not a count", "element");
     element.count = static_cast<std::uint64_t>(*count);
     for (const PlyElement& other : header_.elements)
-        if (other.name == element.name) return wrong("a second element " + quoted(element.name), "element");
+        if (other.name == element.name) return wrong("a second element " + in_quotes(element.name), "element");
     header_.elements.push_back(std::move(element));
     return Ok{};
 }
@@ -80,7 +80,7 @@ Result<PlyType> HeaderReader::type()
 {
     const std::string_view word = lines_.word();
     const auto found = std::ranges::find(type_names, word, &TypeName::name);
-    if (found == type_names.end()) return wrong(quoted(word) + " is no type", "property");
+    if (found == type_names.end()) return wrong(in_quotes(word) + " is no type", "property");
     return found->type;
 }
 
@@ -99,7 +99,7 @@ Status HeaderReader::property()
     if (property.name.empty()) return wrong("a property without a name", "property");
     std::vector<PlyProperty>& properties = header_.elements.back().properties;
     if (std::ranges::find(properties, property.name, &PlyProperty::name) != properties.end())
-        return wrong("a second property " + quoted(property.name), "property");
+        return wrong("a second property " + in_quotes(property.name), "property");
     properties.push_back(std::move(property));
     return Ok{};
 }
@@ -119,7 +119,7 @@ Status HeaderReader::statement(std::string_view keyword)
     if (keyword == "property") return property();
     if (keyword == "comment") comment();
     if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return Ok{};
-    return wrong(quoted(keyword) + " is no statement of a PLY header", "header");
+    return wrong(in_quotes(keyword) + " is no statement of a PLY header", "header");
 }
 
 Result<PlyHeader> HeaderReader::read()

@@ -72,7 +72,7 @@ Result<double> PlySource::next_word(PlyType type, std::string_view field)
     }
     const auto number = number_in(word, type);
     if (number) return *number;
-    return bad_input(quoted(word) + " is no number of the property's type", std::string(field), place());
+    return bad_input(in_quotes(word) + " is no number of the property's type", std::string(field), place());
 }
 
 Result<double> PlySource::next_binary(PlyType type, std::string_view field)

@@ -123,7 +123,7 @@ std::optional<std::int64_t> to_integer(std::string_view word)
     return value;
 }
 
-std::string quoted(std::string_view word)
+std::string in_quotes(std::string_view word)
 {
     constexpr std::size_t longest = 40;
     std::string shown = "'";

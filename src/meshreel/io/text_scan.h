@@ -53,6 +53,6 @@ std::optional<double> to_double(std::string_view word);
 std::optional<std::int64_t> to_integer(std::string_view word);
 
 /// A word from a file as it may stand in a message: short, and printable.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 } // namespace meshreel::io

@@ -17,9 +17,9 @@ struct EffortRow {
 constexpr std::array<EffortRow, most_effort> effort_rows{{
     {64, 0, 1},
     {16, 0, 1},
+    {12, 0, 1},
     {8, 0, 1},
-    {5, 0, 1},
-    {5, 1, 1},
+    {8, 1, 1},
     {5, 3, 1},
     {5, 4, 1},
     {4, 5, 1},
