@@ -85,7 +85,7 @@ public:
             plan_.rounds,
             options_.progress,
         };
-        codecs::Settings start = common();
+        codecs::Settings start = common(plan_.start);
         start.step = likely_step(start);
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
         if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
@@ -131,9 +131,8 @@ private:
     bool limits_size() const { return std::isfinite(allowed_.bytes); }
     bool wants_sted() const { return std::isfinite(allowed_.sted) || (limits_size() && tune() == Tune::sted); }
 
-    codecs::Settings common() const
+    codecs::Settings common(codecs::Settings settings) const
     {
-        codecs::Settings settings = plan_.start;
         settings.basis = options_.basis;
         settings.entropy = options_.entropy;
         settings.threads = options_.threads;
@@ -143,7 +142,7 @@ private:
 
     codecs::Settings by_hand()
     {
-        codecs::Settings settings = common();
+        codecs::Settings settings = common({.growth = plan_.start.growth}); // nothing is tuned
         settings.bases = options_.quality.bases;
         settings.step = options_.quality.step.value_or(0.0) * diagonal();
         if (settings.bases && *settings.bases > max_bases_) prepare(*settings.bases);
