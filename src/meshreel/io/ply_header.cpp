@@ -100,6 +100,8 @@ Status HeaderReader::property()
     std::vector<PlyProperty>& properties = header_.elements.back().properties;
     if (std::ranges::find(properties, property.name, &PlyProperty::name) != properties.end())
         return wrong("a second property " + in_quotes(property.name), "property");
+    if (std::ranges::any_of(property.name, [](char c) { return c > '\0' ? c < '!' || c > '~' : c == '\0'; }))
+        return wrong(in_quotes(property.name) + " is no name", "property");
     properties.push_back(std::move(property));
     return Ok{};
 }
