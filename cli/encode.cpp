@@ -71,6 +71,7 @@ public:
             "  meshreel encode walk.glb walk.reel\n"
             "  meshreel encode motion.pc2 --mesh mesh.obj out.reel --max-error 0.1%\n"
             "  meshreel encode motion.pc2 --mesh mesh.obj --base mesh.obj out.reel --kg 0.1\n"
+            "  meshreel encode motion.pc2 --mesh mesh.obj exact.reel --lossless\n"
             "  meshreel encode walk.####.obj --fps 30 --frames 0:99 walk.reel --bases 40 --step 0.0001\n");
     }
 
@@ -124,9 +125,15 @@ private:
             for (CLI::Option* hand : by_hand) targets[i]->excludes(hand);
         }
         for (CLI::Option* hand : by_hand) hand->group(quality_group);
+        auto* const lossless = app.add_flag_callback(
+            "--lossless", [this] { choices_.codec = "lossless"; }, "every float32 bit for bit");
+        lossless->group(quality_group);
+        for (CLI::Option* other : targets) lossless->excludes(other);
+        for (CLI::Option* other : by_hand) lossless->excludes(other);
         app.add_option("--tune", choices_.tune, "what to look best by; default: what the target measures, else kg")
             ->check(one_of({"kg", "sted"}))
             ->type_name("kg|sted")
+            ->excludes(lossless)
             ->group(quality_group);
     }
 
@@ -158,6 +165,7 @@ private:
         app.add_option("--codec", choices_.codec, "the codec")
             ->capture_default_str()
             ->type_name("NAME")
+            ->excludes("--lossless")
             ->group(coding_group);
     }
 

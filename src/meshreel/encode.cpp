@@ -72,6 +72,7 @@ public:
     /// The smallest file found that keeps the quality asked for, or the best one of the size asked for.
     Result<Encoded> encode()
     {
+        if (codec_.exact()) return finished(exact());
         if (options_.quality.bases || options_.quality.step) {
             MESHREEL_TRY(const tune::Attempt attempt, attempted(by_hand()));
             return finished(attempt);
@@ -147,6 +148,19 @@ private:
         settings.step = options_.quality.step.value_or(0.0) * diagonal();
         if (settings.bases && *settings.bases > max_bases_) prepare(*settings.bases);
         return settings;
+    }
+
+    /// All segments of a codec that loses nothing.
+    tune::Attempt exact() const
+    {
+        tune::Attempt attempt;
+        for (const auto& encoder : encoders_) {
+            codecs::Trial trial = encoder->encode(common({.growth = plan_.start.growth}));
+            attempt.bases = std::max(attempt.bases, trial.bases);
+            attempt.step = std::max(attempt.step, trial.step);
+            attempt.payloads.push_back(std::move(trial.payload));
+        }
+        return attempt;
     }
 
     /// Encodes all segments and measures what the decoder will see, nearly: in surface order, before rounding.
@@ -360,6 +374,8 @@ Result<Encoded> encode(const Animation& animation, const EncodeOptions& options)
     MESHREEL_CHECK(check_base(animation, options));
     const codecs::Codec* codec = codecs::find(options.codec);
     if (codec == nullptr) return usage(concat("there is no codec \"", options.codec, "\""));
+    if (codec->exact() && asks_anything(options.quality))
+        return usage(concat("the codec ", options.codec, " loses nothing: it has no quality to choose"));
     return Encoding(animation, options, *codec).encode();
 }
 

@@ -51,6 +51,14 @@ Status check_quality(const Quality& quality)
     return Ok{};
 }
 
+bool asks_anything(const Quality& quality)
+{
+    if (quality.bases || quality.step) return true;
+    for (const auto& [name, value] : targets_of(quality))
+        if (value) return true;
+    return false;
+}
+
 Measures allowed_by(const Quality& quality, const Animation& animation, double diagonal)
 {
     Measures allowed{no_limit, no_limit, no_limit, no_limit, no_limit};

@@ -27,6 +27,9 @@ inline constexpr double unseen_points_percent = 0.05; ///< where there are no ed
 /// At most one target, above 0; or bases and step. @fails usage, naming what excludes what.
 Status check_quality(const Quality& quality);
 
+/// Whether anything at all is asked for.
+bool asks_anything(const Quality& quality);
+
 /// What a quality allows. diagonal: body diagonal, > 0.
 Measures allowed_by(const Quality& quality, const Animation& animation, double diagonal);
 

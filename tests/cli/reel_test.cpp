@@ -107,6 +107,16 @@ TEST_F(Reel, DecodeGivesTheOrderTheTimesAndTheFrames)
     EXPECT_EQ(good("info back.mdd --mesh mesh.obj --json").json()["frames"], 3);
 }
 
+TEST_F(Reel, LosslessGivesBackTheVeryBytes)
+{
+    make_reel("--lossless");
+    good("decode a.reel back.pc2");
+    EXPECT_EQ(read("back.pc2"), read("motion.pc2"));
+    EXPECT_LT(read("a.reel").size(), read("motion.pc2").size() / 2);
+    EXPECT_THAT(good("explain a.reel").out, HasSubstr("x.decimal"));
+    EXPECT_EQ(run("encode motion.pc2 --mesh mesh.obj b.reel --lossless --kg 1").exit_code, 1);
+}
+
 TEST_F(Reel, DecodeShowsAnyRate)
 {
     make_reel();

@@ -16,6 +16,13 @@ protected:
     }
 };
 
+/// A codec that loses something, the more the coarser the step.
+class EveryLossyCodec : public EveryCodec {};
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryLossyCodec,
+                         testing::ValuesIn(codecs::of_trajectories().begin(), codecs::of_trajectories().end()),
+                         [](const auto& row) { return std::string(row.param.name); });
+
 INSTANTIATE_TEST_SUITE_P(Registry, EveryCodec, testing::ValuesIn(codecs::all().begin(), codecs::all().end()),
                          [](const auto& row) { return std::string(row.param.name); });
 
@@ -24,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryCodec, testing::ValuesIn(codecs::all().b
 TEST_P(EveryCodec, DecodesToTheErrorThatTheEncoderReports)
 {
     for (const auto& [name, animation] : test_shapes::all())
-        for (const codecs::Settings& settings : all_settings(0.003)) {
+        for (const codecs::Settings& settings : settings_of(GetParam(), 0.003)) {
             const Prepared prepared(animation);
             const codecs::Trial trial = encoded(prepared, settings);
             const auto frames = decoded(GetParam(), trial.payload, prepared);
@@ -39,7 +46,7 @@ TEST_P(EveryCodec, DecodesToTheErrorThatTheEncoderReports)
 TEST_P(EveryCodec, WritesTheSameBytesForAnyNumberOfThreads)
 {
     const Prepared prepared(test_shapes::torus());
-    for (codecs::Settings settings : all_settings(0.01)) {
+    for (codecs::Settings settings : settings_of(GetParam(), 0.01)) {
         settings.threads = {1};
         const Bytes one = encoded(prepared, settings).payload;
         settings.threads = {3};
@@ -47,7 +54,7 @@ TEST_P(EveryCodec, WritesTheSameBytesForAnyNumberOfThreads)
     }
 }
 
-TEST_P(EveryCodec, IsMoreAccurateWithAFinerStep)
+TEST_P(EveryLossyCodec, IsMoreAccurateWithAFinerStep)
 {
     const Prepared prepared(test_shapes::double_torus());
     for (const codecs::Settings& coarse : all_settings(0.03)) {
@@ -57,7 +64,7 @@ TEST_P(EveryCodec, IsMoreAccurateWithAFinerStep)
     }
 }
 
-TEST_P(EveryCodec, KeepsTheMeanWhereTheStepIsTooCoarseForAnyComponent)
+TEST_P(EveryLossyCodec, KeepsTheMeanWhereTheStepIsTooCoarseForAnyComponent)
 {
     const Prepared prepared(test_shapes::torus());
     for (const codecs::Settings& settings : all_settings(1e6)) {
@@ -72,7 +79,7 @@ TEST_P(EveryCodec, KeepsTheMeanWhereTheStepIsTooCoarseForAnyComponent)
 TEST_P(EveryCodec, RefusesEveryTruncation)
 {
     const Prepared prepared(test_shapes::two_components());
-    for (const codecs::Settings& settings : all_settings(0.01)) {
+    for (const codecs::Settings& settings : settings_of(GetParam(), 0.01)) {
         const Bytes payload = encoded(prepared, settings).payload;
         for (std::size_t size = 0; size < payload.size(); ++size) {
             const auto frames = decoded(GetParam(), ByteView(payload).first(size), prepared);
@@ -85,7 +92,7 @@ TEST_P(EveryCodec, RefusesEveryTruncation)
 TEST_P(EveryCodec, SurvivesEveryFlippedBit)
 {
     const Prepared prepared(test_shapes::tetrahedron());
-    for (const codecs::Settings& settings : all_settings(0.01)) {
+    for (const codecs::Settings& settings : settings_of(GetParam(), 0.01)) {
         const Bytes payload = encoded(prepared, settings).payload;
         for (std::size_t bit = 0; bit < 8 * payload.size(); ++bit) {
             Bytes broken = payload;

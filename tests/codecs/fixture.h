@@ -38,6 +38,12 @@ inline std::vector<codecs::Settings> all_settings(double step)
     return all;
 }
 
+/// All of them, or one for a codec that none of them concerns.
+inline std::vector<codecs::Settings> settings_of(const codecs::Codec& codec, double step)
+{
+    return codec.exact() ? std::vector<codecs::Settings>(1) : all_settings(step);
+}
+
 inline Result<Matrix<float>> decoded(const codecs::Codec& codec, ByteView payload, const Prepared& prepared,
                                      const DecodeLimits& limits = {})
 {

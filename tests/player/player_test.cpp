@@ -23,7 +23,8 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Registry, PlayerOfEveryCodec, testing::ValuesIn(codecs::all().begin(), codecs::all().end()),
+INSTANTIATE_TEST_SUITE_P(Registry, PlayerOfEveryCodec,
+                         testing::ValuesIn(codecs::of_trajectories().begin(), codecs::of_trajectories().end()),
                          [](const auto& row) { return std::string(row.param.name); });
 
 Animation wave()

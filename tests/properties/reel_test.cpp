@@ -1,6 +1,7 @@
 /// From an animation into a .reel file and back: what the front door promises, for every codec and awkward shape.
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstring>
 #include <gtest/gtest.h>
 
 #include "meshreel/codecs/codec.h"
@@ -21,7 +22,7 @@ EncodeOptions options_for(const codecs::Codec& codec, Order order = Order::keep)
 {
     EncodeOptions options;
     options.codec = std::string(codec.name);
-    options.quality.max_error = max_error;
+    if (!codec.exact()) options.quality.max_error = max_error;
     options.order = order;
     options.threads = {1};
     return options;
@@ -58,6 +59,12 @@ Animation sample()
 }
 
 class EveryReel : public testing::TestWithParam<codecs::Codec> {};
+
+class EveryLossyReel : public EveryReel {};
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryLossyReel,
+                         testing::ValuesIn(codecs::of_trajectories().begin(), codecs::of_trajectories().end()),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryReel, testing::ValuesIn(codecs::all().begin(), codecs::all().end()),
                          [](const auto& row) { return std::string(row.param.name); });
@@ -117,7 +124,7 @@ TEST_P(EveryReel, RefusesAnotherBaseMesh)
     EXPECT_EQ(encode(animation, options).error().code, ErrorCode::usage);
 }
 
-TEST_P(EveryReel, MeetsTheErrorAskedFor)
+TEST_P(EveryLossyReel, MeetsTheErrorAskedFor)
 {
     const Animation animation = sample();
     EncodeOptions options = options_for(GetParam());
@@ -136,7 +143,7 @@ TEST_P(EveryReel, MeetsTheErrorAskedFor)
     }
 }
 
-TEST_P(EveryReel, MeetsTheStedAskedFor)
+TEST_P(EveryLossyReel, MeetsTheStedAskedFor)
 {
     const Animation animation = sample();
     EncodeOptions options = options_for(GetParam());
@@ -148,7 +155,7 @@ TEST_P(EveryReel, MeetsTheStedAskedFor)
     EXPECT_GE(*encoded->sted, 0.97 * 0.02);
 }
 
-TEST_P(EveryReel, MeetsThePsnrAskedFor)
+TEST_P(EveryLossyReel, MeetsThePsnrAskedFor)
 {
     const Animation animation = sample();
     EncodeOptions options = options_for(GetParam());
@@ -160,7 +167,7 @@ TEST_P(EveryReel, MeetsThePsnrAskedFor)
     EXPECT_LE(encoded->psnr, 60.3);
 }
 
-TEST_P(EveryReel, FitsIntoTheSizeAskedFor)
+TEST_P(EveryLossyReel, FitsIntoTheSizeAskedFor)
 {
     EncodeOptions options = options_for(GetParam());
     options.quality = {};
@@ -168,6 +175,29 @@ TEST_P(EveryReel, FitsIntoTheSizeAskedFor)
     const auto encoded = encode(sample(), options);
     ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
     EXPECT_LE(encoded->bytes.size(), 5000u);
+}
+
+TEST(ExactReel, GivesBackEveryBitThroughTheFrontDoor)
+{
+    for (Order order : {Order::keep, Order::free}) {
+        Animation animation = test_shapes::split_seam();
+        animation.positions[4] = -0.0f;
+        EncodeOptions options;
+        options.codec = "lossless";
+        options.order = order;
+        const Animation back = *decode(encode(animation, options)->bytes);
+        const Animation expected = order == Order::free ? in_free_order(animation) : animation;
+        ASSERT_EQ(back.positions.size(), expected.positions.size());
+        EXPECT_EQ(0, std::memcmp(back.positions.data(), expected.positions.data(), 4 * back.positions.size()));
+    }
+}
+
+TEST(ExactReel, HasNoQualityToChoose)
+{
+    EncodeOptions options;
+    options.codec = "lossless";
+    options.quality.kg = 0.1;
+    EXPECT_EQ(encode(test_shapes::torus(), options).error().code, ErrorCode::usage);
 }
 
 TEST_P(EveryReel, WritesTheSameBytesForOneAndTwoThreads)

@@ -23,7 +23,7 @@ protected:
         EncodeOptions options;
         options.codec = std::string(GetParam().name);
         options.segment = segment;
-        options.quality.max_error_relative = 0.05;
+        if (!GetParam().exact()) options.quality.max_error_relative = 0.05;
         options.threads = {1};
         return encode(animation, options)->bytes;
     }
@@ -147,7 +147,9 @@ TEST_P(EveryReelInTime, ShowsAPartAsAmongAllAtTheSameRate)
     const Bytes reel = reel_of(wave(), 12);
     const Animation all = at_rate(reel, 50), part = at_rate(reel, 50, {10, 14, 1});
     ASSERT_EQ(part.frame_count(), 9u);
-    for (std::size_t i = 0; i < 9; ++i) EXPECT_TRUE(same_frame(part, i, all, 20 + i)) << i;
+    for (std::size_t i = 0; i < 9; ++i)
+        for (std::size_t j = 0; j < part.frame(i).size(); ++j) // their times are the same up to rounding
+            ASSERT_NEAR(part.frame(i)[j], all.frame(20 + i)[j], 1e-6) << i;
 }
 
 TEST(ReelTime, RefusesRatesAndFramesThatMakeNoSense)

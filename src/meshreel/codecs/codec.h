@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "meshreel/base/limits.h"
 #include "meshreel/base/views.h"
@@ -61,21 +62,25 @@ struct Codec {
     /// max_bases: no trial will use more components than these.
     std::unique_ptr<Encoder> (*prepare)(const Sequence& sequence, std::size_t max_bases, Threads threads);
 
-    /// The trajectories of a payload. Memory: what its header promises, within limits.
+    /// The trajectories of a payload; null for an exact codec. Memory: what its header promises, within limits.
     /// @fails bad_input, naming byte and field.
     Result<Trajectories> (*open)(const Coded& coded);
 
     /// Appends a line a field of the payload. @fails as open.
     Status (*explain)(const container::Source& payload, const DecodeLimits& limits, std::string& lines);
+
+    /// The frames of a payload, [F x 3W], bit for bit as they were: an exact codec, which no step or number of bases
+    /// concerns. Null for a codec of trajectories. @fails as open.
+    Status (*frames)(const Coded& coded, MatrixView<float> frames) = nullptr;
+
+    bool exact() const { return frames != nullptr; }
 };
 
 /// Fills frames [F x 3W] from a payload of F frames. @fails as Codec::open.
 Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames);
 
 /// A payload decoded so far that any of its frames can be posed.
-struct Opened {
-    Trajectories trajectories;
-};
+using Opened = std::variant<Trajectories, Matrix<float>>;
 /// @fails as Codec::open.
 Result<Opened> open(const Codec& codec, const Coded& coded);
 /// Frames [N x 3W] mixed from those of the payload, before rounding; a mix of one frame alone is what decode() rounds.
@@ -83,6 +88,8 @@ void pose(const Opened& opened, const Mixes& mixes, MatrixView<double> frames, T
 
 /// Every codec, in the order of the documentation.
 std::span<const Codec> all();
+/// Those that are not exact.
+std::span<const Codec> of_trajectories();
 
 /// The codec of that name, or null.
 const Codec* find(std::string_view name);

@@ -1,10 +1,12 @@
 /// The one table of codecs.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 
 #include "meshreel/codecs/average.h"
 #include "meshreel/codecs/coddyac.h"
 #include "meshreel/codecs/codec.h"
+#include "meshreel/codecs/lossless.h"
 #include "meshreel/codecs/lsp.h"
 #include "meshreel/codecs/rbfp.h"
 #include "meshreel/codecs/reel.h"
@@ -13,8 +15,15 @@ namespace meshreel::codecs {
 
 std::span<const Codec> all()
 {
-    static const std::array rows{reel(), coddyac(), average(), lsp(), rbfp()};
+    static const std::array rows{reel(), coddyac(), average(), lsp(), rbfp(), lossless()}; // exact ones last
     return rows;
+}
+
+std::span<const Codec> of_trajectories()
+{
+    const std::span<const Codec> rows = all();
+    return rows.first(static_cast<std::size_t>(
+        std::ranges::find_if(rows, [](const Codec& codec) { return codec.exact(); }) - rows.begin()));
 }
 
 const Codec* find(std::string_view name)
@@ -26,6 +35,7 @@ const Codec* find(std::string_view name)
 
 Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames)
 {
+    if (codec.exact()) return codec.frames(coded, frames);
     MESHREEL_TRY(const Trajectories trajectories, codec.open(coded));
     rebuild(trajectories, frames, coded.threads);
     return Ok{};
@@ -33,13 +43,21 @@ Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames)
 
 Result<Opened> open(const Codec& codec, const Coded& coded)
 {
-    MESHREEL_TRY(Trajectories trajectories, codec.open(coded));
-    return Opened{std::move(trajectories)};
+    if (!codec.exact()) {
+        MESHREEL_TRY(Trajectories trajectories, codec.open(coded));
+        return Opened{std::move(trajectories)};
+    }
+    Matrix<float> frames(coded.frame_count, 3ul * coded.surface.vertex_count);
+    MESHREEL_CHECK(codec.frames(coded, frames.view()));
+    return Opened{std::move(frames)};
 }
 
 void pose(const Opened& opened, const Mixes& mixes, MatrixView<double> frames, Threads threads)
 {
-    pose(opened.trajectories, mixes, frames, threads);
+    if (const auto* trajectories = std::get_if<Trajectories>(&opened))
+        pose(*trajectories, mixes, frames, threads);
+    else
+        mix(std::get<Matrix<float>>(opened).view(), mixes, frames);
 }
 
 } // namespace meshreel::codecs

@@ -104,6 +104,19 @@ FrameMix only(std::uint32_t frame)
     return mix;
 }
 
+void mix(MatrixView<const float> stored, const Mixes& mixes, MatrixView<double> frames)
+{
+    for (std::size_t i = 0; i < mixes.wanted.size(); ++i) {
+        const std::span<double> sum = frames.row(i);
+        std::ranges::fill(sum, -0.0); // unlike 0, it changes nothing that is added to it
+        for (const FrameMix::Part& part : mixes.wanted[i].used()) {
+            if (part.frame < mixes.first || part.frame - mixes.first >= stored.rows) continue;
+            const std::span<const float> from = stored.row(part.frame - mixes.first);
+            for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += part.weight * static_cast<double>(from[j]);
+        }
+    }
+}
+
 Timeline timeline_of(std::span<const double> times_s, const Metadata& meta)
 {
     Timeline timeline{times_s};

@@ -33,6 +33,9 @@ struct Mixes {
 /// The stored frame f and nothing else.
 FrameMix only(std::uint32_t frame);
 
+/// Frames [N x n] mixed from those of a run, stored [F x n].
+void mix(MatrixView<const float> stored, const Mixes& mixes, MatrixView<double> frames);
+
 /// When the stored frames are.
 struct Timeline {
     std::span<const double> times_s; ///< [F], strictly increasing

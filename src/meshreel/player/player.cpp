@@ -57,6 +57,7 @@ Result<Player> Player::open(ByteView reel, const OpenOptions& options)
     MESHREEL_TRY(player.metadata_, container::read_metadata(file));
     player.period_s_ = timeline_of(player.times_s_, player.metadata_).period_s;
     MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
+    if (codec->exact()) return unsupported("is exact: its frames can be decoded, not posed", "HEAD.codec");
     MESHREEL_TRY(connectivity::Topology topology, codecs::read_topology(file, header, options.base));
     player.vertex_count_ = topology.vertex_count;
     player.triangles_ = std::move(topology.triangles);
@@ -97,11 +98,12 @@ Status Player::open_segments(container::SegmentSource& segments, const codecs::C
                                           segment.frame_count,
                                           options.limits,
                                           options.threads}));
-        const std::uint64_t K = opened.trajectories.C.cols;
+        const codecs::Trajectories& trajectories = std::get<codecs::Trajectories>(opened);
+        const std::uint64_t K = trajectories.C.cols;
         MESHREEL_CHECK(budget.take(4 * K * (blocks() * kernel_.block + 3ull * segment.frame_count + 12), "SEGM"));
-        if (!float_holds(opened.trajectories))
+        if (!float_holds(trajectories))
             return bad_input("has positions that float32 cannot hold", "SEGM", at_byte(segment.payload_offset));
-        add(opened.trajectories, segment.first_frame, options.threads);
+        add(trajectories, segment.first_frame, options.threads);
     }
     return Ok{};
 }

@@ -35,7 +35,7 @@ class Player {
 public:
     /// Opens all segments. The bytes are not needed afterwards. Memory: 4 bytes a coefficient of every segment and a
     /// number of every basis; while a segment is opened, what its codec takes.
-    /// @fails bad_input, unsupported, usage, as decode().
+    /// @fails bad_input, unsupported (an exact codec too), usage, as decode().
     static Result<Player> open(ByteView reel, const OpenOptions& options = {});
 
     Player(Player&&) = default;

@@ -14,6 +14,8 @@ class LeastSquares {
 public:
     using Features = std::array<double, n>; ///< about 1 in size
 
+    explicit LeastSquares(double memory = 0.995) : memory_(memory) {}
+
     double predict(const Features& u) const
     {
         double sum = 0;
@@ -25,7 +27,7 @@ public:
     void learn(const Features& u, double error)
     {
         Features gain{};
-        double power = memory;
+        double power = memory_;
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t j = 0; j < n; ++j) gain[i] += P_[i][j] * u[j];
             power += gain[i] * u[i];
@@ -41,13 +43,12 @@ public:
     }
 
 private:
-    static constexpr double memory = 0.995;
     static constexpr double most_doubt = 100.0; ///< where nothing new is seen, nothing old is forgotten
 
     void forget()
     {
         for (Features& row : P_)
-            for (double& value : row) value *= 1.0 / memory;
+            for (double& value : row) value *= 1.0 / memory_;
     }
 
     static constexpr std::array<Features, n> unit()
@@ -57,6 +58,7 @@ private:
         return matrix;
     }
 
+    double memory_;
     Features w_{};
     std::array<Features, n> P_ = unit(); ///< inverse correlation of the features
 };
