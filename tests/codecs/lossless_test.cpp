@@ -33,7 +33,7 @@ bool same_bits(const Matrix<float>& a, const Matrix<float>& b)
     return std::ranges::equal(a.values, b.values, same);
 }
 
-Animation cloth(std::uint32_t vertices = 300)
+Animation falling_cloth(std::uint32_t vertices = 300)
 {
     return *shapes::generate(*shapes::find("cloth"), {.vertices = vertices, .frames = 12});
 }
@@ -67,7 +67,7 @@ TEST(Lossless, GivesBackEveryBitOfEveryShape)
 
 TEST(Lossless, GivesBackAnyFloatsWhateverTheyAre)
 {
-    Animation animation = cloth();
+    Animation animation = falling_cloth();
     Random random(5);
     for (float& x : animation.positions) {
         auto bits = static_cast<std::uint32_t>(random.bits());
@@ -79,7 +79,7 @@ TEST(Lossless, GivesBackAnyFloatsWhateverTheyAre)
 
 TEST(Lossless, TellsMinusZeroFromZero)
 {
-    Animation animation = cloth();
+    Animation animation = falling_cloth();
     for (std::size_t i = 0; i < animation.positions.size(); i += 3) animation.positions[i] = i % 2 == 0 ? 0.0f : -0.0f;
     expect_every_bit(animation);
 }
@@ -87,12 +87,13 @@ TEST(Lossless, TellsMinusZeroFromZero)
 TEST(Lossless, GivesBackTextsInAnyUnit)
 {
     for (const char* format : {"%.4f", "%g"})
-        for (const double scale : {1.0, 0.0254, -11.393806}) expect_every_bit(from_text(cloth(), format, scale));
+        for (const double scale : {1.0, 0.0254, -11.393806})
+            expect_every_bit(from_text(falling_cloth(), format, scale));
 }
 
 TEST(NumberSource, SeesHowManyDecimalsATextHad)
 {
-    const Prepared prepared(from_text(cloth(), "%.4f", 1.0));
+    const Prepared prepared(from_text(falling_cloth(), "%.4f", 1.0));
     for (const coding::NumberLine& line : codecs::number_lines(prepared.frames.view(), {1})) {
         EXPECT_TRUE(line.decimal);
         EXPECT_NEAR(line.step(1.0), 1e-4, 1e-9);
@@ -101,26 +102,26 @@ TEST(NumberSource, SeesHowManyDecimalsATextHad)
 
 TEST(NumberSource, SeesDigitsThroughAChangeOfUnit)
 {
-    Animation animation = from_text(cloth(3000), "%g", 1.676881507);
+    Animation animation = from_text(falling_cloth(3000), "%g", 1.676881507);
     const Prepared prepared(animation);
     for (const coding::NumberLine& line : codecs::number_lines(prepared.frames.view(), {1})) EXPECT_TRUE(line.decimal);
 }
 
 TEST(NumberSource, SeesIntegersThatWereScaledAndMoved)
 {
-    const Prepared prepared(from_text(cloth(), "%.2f", 0.37, 5.5));
+    const Prepared prepared(from_text(falling_cloth(), "%.2f", 0.37, 5.5));
     for (const coding::NumberLine& line : codecs::number_lines(prepared.frames.view(), {1}))
         EXPECT_NEAR(line.step(1.0), 0.0037, 1e-6);
 }
 
 TEST(NumberSource, SeesNothingInArithmetic)
 {
-    const Prepared prepared(cloth());
+    const Prepared prepared(falling_cloth());
     for (const coding::NumberLine& line : codecs::number_lines(prepared.frames.view(), {1})) EXPECT_FALSE(line.decimal);
 }
 
 TEST(NumberSource, MakesTextsSmaller)
 {
-    const Prepared text(from_text(cloth(), "%.4f", 11.3)), floats(cloth());
+    const Prepared text(from_text(falling_cloth(), "%.4f", 11.3)), floats(falling_cloth());
     EXPECT_LT(exactly(text).size(), 0.7 * static_cast<double>(exactly(floats).size()));
 }
