@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include <unsupported/Eigen/FFT>
+
 namespace meshreel::codecs {
 
 namespace {
@@ -18,50 +20,26 @@ using Values = std::vector<double>; // sorted, each once
 
 constexpr std::size_t most_values = std::size_t{1} << 20, judges = 4096;
 
-/// Fourier transforms of one size, a power of two.
+/// Fourier transforms of real values, of one size.
 class Fourier {
 public:
-    explicit Fourier(std::size_t size) : turns_(size / 2)
-    {
-        for (std::size_t k = 0; k < turns_.size(); ++k) {
-            const double angle = -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(size);
-            turns_[k] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
-        }
-    }
+    explicit Fourier(std::size_t size) : size_(size) { fft_.SetFlag(Eigen::FFT<float>::HalfSpectrum); }
 
-    std::size_t size() const { return 2 * turns_.size(); }
+    std::size_t size() const { return size_; }
 
-    /// In place; a has the size.
-    void transform(std::vector<std::complex<float>>& a) const
+    /// Magnitudes of frequencies 0 .. size / 2.
+    std::vector<float> magnitudes(const std::vector<float>& values)
     {
-        reverse_bits(a);
-        for (std::size_t length = 2; length <= size(); length <<= 1)
-            for (std::size_t i = 0; i < size(); i += length) combine(a.data() + i, length);
+        std::vector<std::complex<float>> spectrum;
+        fft_.fwd(spectrum, values);
+        std::vector<float> magnitudes(spectrum.size());
+        std::ranges::transform(spectrum, magnitudes.begin(), [](const auto& value) { return std::abs(value); });
+        return magnitudes;
     }
 
 private:
-    static void reverse_bits(std::vector<std::complex<float>>& a)
-    {
-        for (std::size_t i = 1, j = 0; i < a.size(); ++i) {
-            std::size_t bit = a.size() >> 1;
-            for (; (j & bit) != 0; bit >>= 1) j ^= bit;
-            j ^= bit;
-            if (i < j) std::swap(a[i], a[j]);
-        }
-    }
-    void combine(std::complex<float>* a, std::size_t length) const
-    {
-        const std::size_t half = length / 2, stride = size() / length;
-        for (std::size_t k = 0; k < half; ++k) {
-            const std::complex<float> turn = turns_[k * stride], b = a[k + half];
-            const std::complex<float> odd{b.real() * turn.real() - b.imag() * turn.imag(),
-                                          b.real() * turn.imag() + b.imag() * turn.real()};
-            a[k + half] = a[k] - odd;
-            a[k] += odd;
-        }
-    }
-
-    std::vector<std::complex<float>> turns_; ///< e^(-2 pi i k / size)
+    std::size_t size_;
+    Eigen::FFT<float> fft_;
 };
 
 /// Numbers offset + k q.
@@ -93,23 +71,23 @@ Spacing fitted(std::span<const double> values, Spacing guess, bool through_zero)
 }
 
 /// The spacing of most values of a window; nothing where they have none.
-std::optional<Spacing> spacing_of(std::span<const double> values, const Fourier& fourier)
+std::optional<Spacing> spacing_of(std::span<const double> values, Fourier& fourier)
 {
     if (values.size() < 64) return {};
     const double low = values.front(), width = values.back() - low;
     const double bin = width / static_cast<double>(fourier.size() / 2 - 1);
-    std::vector<std::complex<float>> seen(fourier.size());
+    std::vector<float> seen(fourier.size());
     for (const double u : values) seen[static_cast<std::size_t>((u - low) / bin)] = 1.0f;
-    const double count = static_cast<double>(std::ranges::count(seen, std::complex<float>(1.0f)));
-    fourier.transform(seen);
+    const double count = static_cast<double>(std::ranges::count(seen, 1.0f));
+    const std::vector<float> strength = fourier.magnitudes(seen);
     const std::size_t slowest = 64, fastest = fourier.size() / 3;
-    double highest = 0;
-    for (std::size_t j = slowest; j < fastest; ++j) highest = std::max(highest, static_cast<double>(std::abs(seen[j])));
+    const double highest =
+        *std::max_element(strength.begin() + slowest, strength.begin() + static_cast<std::ptrdiff_t>(fastest));
     if (highest < 0.4 * count || highest < 6 * std::sqrt(count)) return {};
     std::size_t peak = slowest;
-    while (std::abs(seen[peak]) < 0.9 * highest) ++peak;
-    while (std::abs(seen[peak + 1]) > std::abs(seen[peak])) ++peak;
-    const double left = std::abs(seen[peak - 1]), middle = std::abs(seen[peak]), right = std::abs(seen[peak + 1]);
+    while (strength[peak] < 0.9 * highest) ++peak;
+    while (strength[peak + 1] > strength[peak]) ++peak;
+    const double left = strength[peak - 1], middle = strength[peak], right = strength[peak + 1];
     const double beside = 0.5 * (left - right) / (left - 2 * middle + right);
     Spacing spacing{bin * static_cast<double>(fourier.size()) / (static_cast<double>(peak) + beside), 0.0};
     std::complex<double> phase = 0;
@@ -126,7 +104,7 @@ double float_spacing(double x)
 /// Looks for the line of one coordinate.
 class LineSearch {
 public:
-    LineSearch(MatrixView<const float> frames, std::size_t c, const Fourier& fourier) : fourier_(fourier)
+    LineSearch(MatrixView<const float> frames, std::size_t c, Fourier& fourier) : fourier_(fourier)
     {
         const std::size_t count = frames.values().size() / 3, stride = std::max<std::size_t>(count / most_values, 1);
         for (std::size_t i = 0; i < count; i += stride) values_.push_back(static_cast<double>(frames.data[3 * i + c]));
@@ -262,7 +240,7 @@ private:
         return 0.5 * (low + high);
     }
 
-    const Fourier& fourier_;
+    Fourier& fourier_;
     Values values_, sizes_, judges_; ///< all, their magnitudes, and some of them
     NumberLine best_;
     double best_bits_ = 0.0;
@@ -273,9 +251,12 @@ private:
 std::array<NumberLine, 3> number_lines(MatrixView<const float> frames, Threads threads)
 {
     const std::size_t count = frames.values().size() / 3; // few values tell little of fine spacings
-    const Fourier fourier(std::size_t{1} << (count < 1 << 11 ? 16 : count < 1 << 15 ? 18 : 20));
+    const std::size_t size = std::size_t{1} << (count < 1 << 11 ? 16 : count < 1 << 15 ? 18 : 20);
     std::array<NumberLine, 3> lines;
-    parallel_for(3, threads, [&](std::size_t c) { lines[c] = LineSearch(frames, c, fourier).found(); });
+    parallel_for(3, threads, [&](std::size_t c) {
+        Fourier fourier(size);
+        lines[c] = LineSearch(frames, c, fourier).found();
+    });
     return lines;
 }
 
