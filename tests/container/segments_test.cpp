@@ -2,21 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "meshreel/container/segments.h"
 #include "tests/container/clip.h"
+#include "tests/container/counted_source.h"
 
 namespace meshreel::container {
 namespace {
-
-/// Says how much of a file was fetched.
-class CountedSource : public MemorySource {
-public:
-    using MemorySource::MemorySource;
-    Result<Bytes> fetch(std::uint64_t offset, std::size_t count) override
-    {
-        fetched += count;
-        return MemorySource::fetch(offset, count);
-    }
-    std::uint64_t fetched = 0;
-};
 
 /// 100 segments of 10 frames, each of 1000 bytes that say which one it is.
 Bytes long_file(Clip& clip)

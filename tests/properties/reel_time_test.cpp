@@ -7,6 +7,7 @@
 #include "meshreel/codecs/codec.h"
 #include "meshreel/mesh/shapes.h"
 #include "meshreel/meshreel.h"
+#include "tests/container/counted_source.h"
 
 using namespace meshreel;
 
@@ -31,18 +32,6 @@ protected:
     {
         return *decode(reel, {.frames = frames, .fps = fps});
     }
-};
-
-/// Says how much of a file was fetched.
-class CountedReel : public MemorySource {
-public:
-    using MemorySource::MemorySource;
-    Result<Bytes> fetch(std::uint64_t offset, std::size_t count) override
-    {
-        fetched += count;
-        return MemorySource::fetch(offset, count);
-    }
-    std::uint64_t fetched = 0;
 };
 
 bool same_frame(const Animation& a, std::size_t f, const Animation& b, std::size_t g)
@@ -101,7 +90,7 @@ TEST_P(EveryReelInTime, ReadsNoSegmentThatTheFramesDoNotNeed)
             segments += chunk.size;
             largest = std::max(largest, chunk.size);
         }
-    CountedReel file(reel);
+    CountedSource file(reel);
     ASSERT_TRUE(decode(file, {.frames = {17, 17, 1}}).ok());
     EXPECT_LE(file.fetched, reel.size() - segments + largest + 4 * 24); // and looks at the heads of some
 }

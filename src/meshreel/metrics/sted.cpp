@@ -14,7 +14,7 @@ namespace meshreel::metrics {
 
 namespace {
 
-constexpr std::size_t lanes = 8; ///< frames measured_sted side by side
+constexpr std::size_t lanes = 8; ///< frames measured side by side
 constexpr std::size_t vertices_a_block = 256;
 
 using Lanes = std::array<double, lanes>;
