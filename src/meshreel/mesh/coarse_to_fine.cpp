@@ -1,180 +1,19 @@
-/// Greedy levels with a k-d tree that knows which of its points are taken.
+/// Greedy levels: a point taken tells all within the spacing how near it is, and finds its own neighbours in a grid.
 // SPDX-License-Identifier: MIT
 #include "meshreel/mesh/coarse_to_fine.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "meshreel/mesh/cells.h"
 
 namespace meshreel {
 
 namespace {
 
-using Point = std::array<double, 3>;
-
-constexpr std::uint32_t untaken = 0xffffffff;
 constexpr std::size_t level_count = 160; // 1.1^160 is 4 million
-constexpr std::size_t crowd = 8;
-
-double squared_gap(const Point& a, const Point& b)
-{
-    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-    return x * x + y * y + z * z;
-}
-
-/// Points found so far, nearest first; of equally near ones those found first.
-class NearestList {
-public:
-    explicit NearestList(std::size_t most) : most_(most) { found_.reserve(most); }
-
-    /// Only nearer points are of interest.
-    double bound() const { return found_.size() < most_ ? limit_ : found_.back().distance; }
-    void offer(double distance, std::uint32_t point)
-    {
-        if (!(distance < bound())) return;
-        if (found_.size() == most_) found_.pop_back();
-        found_.push_back({distance, point});
-        for (std::size_t i = found_.size() - 1; i > 0 && distance < found_[i - 1].distance; --i)
-            std::swap(found_[i], found_[i - 1]);
-    }
-    void clear(double limit)
-    {
-        found_.clear();
-        limit_ = limit;
-    }
-    std::size_t size() const { return found_.size(); }
-    std::uint32_t point(std::size_t i) const { return found_[i].point; }
-    double distance(std::size_t i) const { return found_[i].distance; }
-
-private:
-    struct Candidate {
-        double distance;
-        std::uint32_t point;
-    };
-    std::size_t most_;
-    double limit_ = 0.0;
-    std::vector<Candidate> found_;
-};
-
-/// A k-d tree over all points, of which only those taken can be found. Where points coincide it decides which are
-/// found, so it is built the same way everywhere: halves by (coordinate, number), leaves by number.
-class TakenTree {
-public:
-    explicit TakenTree(std::vector<Point> points)
-        : points_(std::move(points)), items_(points_.size()), leaf_(points_.size())
-    {
-        std::iota(items_.begin(), items_.end(), 0u);
-        level_at_.assign(points_.size(), untaken);
-        place_.resize(points_.size());
-        if (!points_.empty()) build({0, points_.size()}, nothing);
-        for (std::size_t i = 0; i < items_.size(); ++i) {
-            points_at_.push_back(points_[items_[i]]);
-            place_[items_[i]] = static_cast<std::uint32_t>(i);
-        }
-    }
-
-    void take(std::uint32_t point, std::uint32_t level)
-    {
-        level_at_[place_[point]] = level;
-        for (std::uint32_t n = leaf_[point]; n != nothing && nodes_[n].earliest > level; n = nodes_[n].parent)
-            nodes_[n].earliest = level;
-    }
-    std::uint32_t level(std::uint32_t point) const { return level_at_[place_[point]]; }
-
-    /// The nearest points of levels below the limit, as far as `found` is interested.
-    void search(std::uint32_t point, std::uint32_t limit, NearestList& found) const
-    {
-        visit(0, {points_[point], limit}, found);
-    }
-
-private:
-    static constexpr std::uint32_t nothing = 0xffffffff;
-
-    struct Range {
-        std::size_t begin, end;
-    };
-    struct Node {
-        Range items;
-        Point low, high;
-        std::uint32_t parent = nothing, left = nothing, right = nothing;
-        std::uint32_t earliest = untaken; ///< the lowest level of a point below
-    };
-    struct Query {
-        Point point;
-        std::uint32_t limit;
-    };
-
-    std::uint32_t build(Range range, std::uint32_t parent)
-    {
-        const auto index = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.push_back({range, points_[items_[range.begin]], points_[items_[range.begin]], parent});
-        for (std::size_t i = range.begin; i < range.end; ++i)
-            for (std::size_t c = 0; c < 3; ++c) {
-                nodes_[index].low[c] = std::min(nodes_[index].low[c], points_[items_[i]][c]);
-                nodes_[index].high[c] = std::max(nodes_[index].high[c], points_[items_[i]][c]);
-            }
-        if (range.end - range.begin <= crowd) {
-            const auto first = items_.begin() + static_cast<std::ptrdiff_t>(range.begin);
-            std::sort(first, first + static_cast<std::ptrdiff_t>(range.end - range.begin));
-            for (std::size_t i = range.begin; i < range.end; ++i) leaf_[items_[i]] = index;
-            return index;
-        }
-        const std::size_t middle = split(range, nodes_[index]);
-        const std::uint32_t left = build({range.begin, middle}, index), right = build({middle, range.end}, index);
-        nodes_[index].left = left;
-        nodes_[index].right = right;
-        return index;
-    }
-
-    /// Halves a range along the longest side of its box.
-    std::size_t split(Range range, const Node& node)
-    {
-        std::size_t axis = 0;
-        for (std::size_t c = 1; c < 3; ++c)
-            if (node.high[c] - node.low[c] > node.high[axis] - node.low[axis]) axis = c;
-        const std::size_t middle = (range.begin + range.end) / 2;
-        const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-        std::nth_element(at(range.begin), at(middle), at(range.end), [&](std::uint32_t a, std::uint32_t b) {
-            return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
-        });
-        return middle;
-    }
-
-    static double distance_to_box(const Point& p, const Node& node)
-    {
-        double sum = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double outside = std::max(std::max(node.low[c] - p[c], p[c] - node.high[c]), 0.0);
-            sum += outside * outside;
-        }
-        return sum;
-    }
-
-    void visit(std::uint32_t index, const Query& query, NearestList& found) const
-    {
-        const Node& node = nodes_[index];
-        if (node.left == nothing) {
-            for (std::size_t i = node.items.begin; i < node.items.end; ++i)
-                if (level_at_[i] < query.limit) found.offer(squared_gap(query.point, points_at_[i]), items_[i]);
-            return;
-        }
-        std::array<std::uint32_t, 2> child{node.left, node.right};
-        std::array<double, 2> away{distance_to_box(query.point, nodes_[child[0]]),
-                                   distance_to_box(query.point, nodes_[child[1]])};
-        if (away[1] < away[0]) {
-            std::swap(child[0], child[1]);
-            std::swap(away[0], away[1]);
-        }
-        for (std::size_t i = 0; i < 2; ++i)
-            if (nodes_[child[i]].earliest < query.limit && away[i] < found.bound()) visit(child[i], query, found);
-    }
-
-    std::vector<Point> points_, points_at_;       ///< by number, by place in the tree
-    std::vector<std::uint32_t> items_, level_at_; ///< by place
-    std::vector<std::uint32_t> leaf_, place_;     ///< by number
-    std::vector<Node> nodes_;
-};
 
 std::vector<Point> finite_points(MatrixView<const double> X)
 {
@@ -187,17 +26,26 @@ std::vector<Point> finite_points(MatrixView<const double> X)
     return points;
 }
 
-/// Squared distances that the points of each level keep, [level_count]; the last is 0.
-std::vector<double> squared_spacings(const std::vector<Point>& points)
+struct Bounds {
+    Point low, high;
+};
+
+Bounds bounds_of(const std::vector<Point>& points)
 {
-    Point low = points.front(), high = points.front();
+    Bounds bounds{points.front(), points.front()};
     for (const Point& p : points)
         for (std::size_t c = 0; c < 3; ++c) {
-            low[c] = std::min(low[c], p[c]);
-            high[c] = std::max(high[c], p[c]);
+            bounds.low[c] = std::min(bounds.low[c], p[c]);
+            bounds.high[c] = std::max(bounds.high[c], p[c]);
         }
+    return bounds;
+}
+
+/// Squared distances that the points of each level keep, [level_count]; the last is 0.
+std::vector<double> squared_spacings(const Bounds& bounds)
+{
     std::vector<double> squares(level_count);
-    double square = 0.25 * squared_gap(low, high);
+    double square = 0.25 * squared_gap(bounds.low, bounds.high);
     for (double& s : squares) {
         s = square;
         square = square / 1.21;
@@ -206,34 +54,161 @@ std::vector<double> squared_spacings(const std::vector<Point>& points)
     return squares;
 }
 
-/// Puts every point into its level. A point is looked at again only once the spacing has come down to its distance to
-/// the points taken when it was last looked at.
-void take_all(TakenTree& tree, const std::vector<double>& squares, CoarseToFine& result)
-{
-    std::vector<std::vector<std::uint32_t>> waiting(level_count);
-    waiting[0].resize(result.nearest.rows);
-    std::iota(waiting[0].begin(), waiting[0].end(), 0u);
-    std::vector<double> nearest(result.nearest.rows, std::numeric_limits<double>::infinity());
-    NearestList found(1);
-    for (std::size_t l = 0; l < level_count; ++l) {
-        std::sort(waiting[l].begin(), waiting[l].end());
-        for (const std::uint32_t point : waiting[l]) {
-            found.clear(nearest[point]);
-            tree.search(point, untaken, found);
-            if (found.size() != 0) nearest[point] = found.distance(0);
+/// Puts every point into its level.
+class SpacedLevels {
+public:
+    SpacedLevels(const std::vector<Point>& points, const Bounds& bounds)
+        : points_(points), squares_(squared_spacings(bounds)), waiting_(level_count),
+          nearest_(points.size(), std::numeric_limits<double>::infinity()), cells_(bounds.low)
+    {
+        waiting_[0].resize(points.size());
+        std::iota(waiting_[0].begin(), waiting_[0].end(), 0u);
+        left_ = waiting_[0];
+    }
+
+    /// Appends the points of a level to the order. A point waits for the level whose spacing has come down to its distance
+    /// to those taken.
+    void take(std::size_t l, CoarseToFine& result)
+    {
+        std::sort(waiting_[l].begin(), waiting_[l].end());
+        for (const std::uint32_t point : waiting_[l]) {
             std::size_t level = l;
-            while (nearest[point] < squares[level]) ++level;
+            while (nearest_[point] < squares_[level]) ++level;
             if (level > l) {
-                waiting[level].push_back(point);
+                waiting_[level].push_back(point);
                 continue;
             }
-            tree.take(point, static_cast<std::uint32_t>(l));
             result.order.push_back(point);
+            nearest_[point] = -1.0;
+            cover(points_[point], squares_[l]);
         }
+        waiting_[l] = {};
         result.ends.push_back(result.order.size());
-        waiting[l] = {};
     }
-}
+
+    /// How far apart the points of a level and of those before are, at least.
+    double spacing(std::size_t l) const { return std::sqrt(squares_[l]); }
+
+private:
+    /// Tells all points within the spacing how near they are to one that is taken.
+    void cover(const Point& taken, double squared_spacing)
+    {
+        if (!(squared_spacing > 0)) return;
+        if (squared_spacing < 0.6 * squared_reach_) gather(squared_spacing);
+        cells_.near(taken, left_.size(), [&](std::uint32_t i, double square) {
+            double& nearest = nearest_[left_[i]];
+            if (square < squared_spacing) nearest = std::min(nearest, square);
+        });
+    }
+
+    /// Sorts the points that are not taken into a finer grid.
+    void gather(double squared_reach)
+    {
+        std::erase_if(left_, [&](std::uint32_t point) { return nearest_[point] < 0; });
+        std::vector<Point> points(left_.size());
+        for (std::size_t i = 0; i < left_.size(); ++i) points[i] = points_[left_[i]];
+        cells_.fill(points, std::sqrt(squared_reach));
+        squared_reach_ = squared_reach;
+    }
+
+    const std::vector<Point>& points_;
+    std::vector<double> squares_;
+    std::vector<std::vector<std::uint32_t>> waiting_; ///< [level_count]
+    std::vector<double> nearest_;                     ///< [N] squared distance to those taken, -1 of those themselves
+    std::vector<std::uint32_t> left_;                 ///< in the grid
+    Cells cells_;
+    double squared_reach_ = std::numeric_limits<double>::infinity(); ///< of the grid
+};
+
+/// The nearest of the points before a limit.
+class Neighbourhood {
+public:
+    Neighbourhood(const Cells& cells, double reach) : cells_(cells), squared_reach_(reach * reach) {}
+
+    /// Fills the row with places in the order. Returns how many there are within the reach, at most as many as wanted.
+    std::size_t find(const Point& point, std::size_t limit, std::span<std::uint32_t> row)
+    {
+        std::size_t count = 0;
+        cells_.near(point, limit, [&](std::uint32_t place, double square) {
+            if (count == near_.size()) near_.resize(2 * count + 64);
+            near_[count] = {square, place};
+            count += square < squared_reach_ ? 1 : 0; // no branch: nobody could foresee it
+        });
+        const std::size_t enough = std::min(row.size(), count);
+        const auto begin = near_.begin(), nearest = begin + static_cast<std::ptrdiff_t>(enough);
+        if (enough < count) std::nth_element(begin, nearest, begin + static_cast<std::ptrdiff_t>(count));
+        for (std::size_t i = 0; i < enough; ++i) row[i] = near_[i].place;
+        return enough;
+    }
+
+private:
+    struct Near {
+        double square;
+        std::uint32_t place;
+        bool operator<(const Near& other) const
+        {
+            return square != other.square ? square < other.square : place < other.place;
+        }
+    };
+    const Cells& cells_;
+    double squared_reach_;
+    std::vector<Near> near_;
+};
+
+/// Finds the neighbours of all points, a few levels at a time, from fine to coarse: whoever has too few within reach asks
+/// again in the next, wider grid.
+class Neighbours {
+public:
+    Neighbours(const std::vector<Point>& points, const Bounds& bounds, CoarseToFine& result)
+        : result_(result), cells_(bounds.low), diagonal_(std::sqrt(squared_gap(bounds.low, bounds.high)))
+    {
+        for (const std::uint32_t point : result.order) ordered_.push_back(points[point]);
+        for (std::size_t l = 0; l < result.ends.size(); ++l)
+            limits_.resize(result.ends[l], l == 0 ? 0u : static_cast<std::uint32_t>(result.ends[l - 1]));
+    }
+
+    void find(const SpacedLevels& levels, Threads threads)
+    {
+        constexpr std::size_t step = 2;
+        const double wanted = std::sqrt(static_cast<double>(result_.nearest.cols)); // spacings; enough on a surface
+        for (std::size_t end = result_.ends.size(); end > 0; end = (end - 1) / step * step) {
+            const std::size_t l = (end - 1) / step * step; // the first of these levels
+            for (std::size_t place = l == 0 ? 0 : result_.ends[l - 1]; place < result_.ends[end - 1]; ++place)
+                pending_.push_back(static_cast<std::uint32_t>(place));
+            const double reach = l == 0 ? 1.001 * diagonal_ : wanted * levels.spacing(l - 1);
+            if (reach > 0 && !pending_.empty()) look(reach, threads);
+        }
+    }
+
+private:
+    static constexpr std::uint32_t done = CoarseToFine::nobody;
+
+    /// Those who are pending and find enough, or all, are done.
+    void look(double reach, Threads threads)
+    {
+        cells_.fill(std::span(ordered_).first(*std::max_element(pending_.begin(), pending_.end())), reach);
+        constexpr std::size_t block = 128;
+        parallel_for((pending_.size() + block - 1) / block, threads, [&](std::size_t task) {
+            Neighbourhood neighbourhood(cells_, reach);
+            for (std::size_t i = task * block; i < std::min(pending_.size(), (task + 1) * block); ++i) {
+                const std::uint32_t place = pending_[i];
+                const std::span<std::uint32_t> row = result_.nearest.row(result_.order[place]);
+                const std::size_t found = neighbourhood.find(ordered_[place], limits_[place], row);
+                if (found < row.size() && reach < diagonal_) continue;
+                for (std::uint32_t& other : row.first(found)) other = result_.order[other];
+                pending_[i] = done;
+            }
+        });
+        std::erase(pending_, done);
+    }
+
+    CoarseToFine& result_;
+    Cells cells_;
+    double diagonal_;
+    std::vector<Point> ordered_;         ///< [N] in the order
+    std::vector<std::uint32_t> limits_;  ///< [N] how many points of the order are of earlier levels
+    std::vector<std::uint32_t> pending_; ///< places in the order
+};
 
 } // namespace
 
@@ -243,21 +218,12 @@ CoarseToFine coarse_to_fine(MatrixView<const double> X, std::size_t n, Threads t
     result.nearest = Matrix<std::uint32_t>(X.rows, n);
     std::fill(result.nearest.values.begin(), result.nearest.values.end(), CoarseToFine::nobody);
     if (X.rows == 0) return result;
-    std::vector<Point> points = finite_points(X);
-    const std::vector<double> squares = squared_spacings(points);
-    TakenTree tree(std::move(points));
+    const std::vector<Point> points = finite_points(X);
+    const Bounds bounds = bounds_of(points);
+    SpacedLevels levels(points, bounds);
     result.order.reserve(X.rows);
-    take_all(tree, squares, result);
-    constexpr std::size_t block = 256;
-    parallel_for((X.rows + block - 1) / block, threads, [&](std::size_t task) {
-        NearestList found(n);
-        for (std::size_t p = task * block; p < std::min(X.rows, (task + 1) * block); ++p) {
-            const auto point = static_cast<std::uint32_t>(p);
-            found.clear(std::numeric_limits<double>::infinity());
-            tree.search(point, tree.level(point), found);
-            for (std::size_t i = 0; i < found.size(); ++i) result.nearest(p, i) = found.point(i);
-        }
-    });
+    for (std::size_t l = 0; l < level_count; ++l) levels.take(l, result);
+    Neighbours(points, bounds, result).find(levels, threads);
     return result;
 }
 

@@ -18,16 +18,14 @@ struct CoarseToFine {
 
     std::vector<std::uint32_t> order; ///< [N] points, level after level, rising within a level
     std::vector<std::size_t> ends;    ///< [levels] where each level ends in the order; levels may be empty
-    Matrix<std::uint32_t> nearest;    ///< [N x n] the nearest points of earlier levels, nearest first, then nobody
+    Matrix<std::uint32_t> nearest;    ///< [N x n] the nearest points of earlier levels, in no order, then nobody
 };
 
 /// Spreads points X [N x 3]. Level l takes, by rising number, every point left whose distance to all points taken so far
 /// is at least half the diagonal of the bounding box over 1.1^l; the last level takes the rest. Whatever is not finite
 /// counts as 0. n: nearest points wanted of each. The same result on every machine and for any number of threads.
-/// Which of several equally near points are found is decided by a k-d tree: nodes of more than 8 points are halved along
-/// the longest side of their box (the first such) by (coordinate, number), the lower half the smaller; the child nearer
-/// to the point (the lower one of equals) is searched first, a leaf by rising number, and only nearer points replace.
-/// @cost O(N log N) for surfaces; memory 4 n N + 60 N bytes.
+/// Of points equally near those count as nearer that come first in the order.
+/// @cost O(n N) for surfaces; memory 4 n N + 150 N bytes.
 CoarseToFine coarse_to_fine(MatrixView<const double> X, std::size_t n, Threads threads);
 
 } // namespace meshreel
