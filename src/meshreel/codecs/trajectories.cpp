@@ -4,18 +4,13 @@
 
 #include <algorithm>
 
+#include "meshreel/base/wide.h"
+
 namespace meshreel::codecs {
 
 namespace {
 
 constexpr std::size_t pose_block = 128; // vertices
-
-// Wider registers change nothing in the result: each vertex sums its own products in the order of k, without fusing.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define MESHREEL_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define MESHREEL_WIDE
-#endif
 
 /// sums[v] = m + sum_k b[k * stride] * Ct[k][v] for one row of the trajectories of a block.
 struct PosedRow {
@@ -92,5 +87,3 @@ void pose(const Trajectories& trajectories, const Mixes& mixes, MatrixView<doubl
 }
 
 } // namespace meshreel::codecs
-
-#undef MESHREEL_WIDE

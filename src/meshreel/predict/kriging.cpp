@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshreel/base/wide.h"
+
 namespace meshreel::predict {
 
 namespace {
@@ -12,13 +14,6 @@ namespace {
 constexpr std::size_t most = Kriging::most, lanes = 4;
 using Square = std::array<std::array<double, most>, most>;
 using Column = std::array<double, most>;
-
-// Wider registers change nothing in the result: every sum has its own place and its own order.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define MESHREEL_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define MESHREEL_WIDE
-#endif
 
 /// G_ij = sum_k e_ik e_jk for j <= i, and somewhat beyond: four columns at a time.
 MESHREEL_WIDE void products(const double* __restrict e, std::size_t known, Square& G)
