@@ -1,4 +1,4 @@
-/// The contexts of a walk: a row a component, a column for how much went wrong nearby.
+/// What walks share: contexts (a row a component, a column for how much went wrong nearby), and how they meet any bytes.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -36,6 +36,13 @@ private:
         return count;
     }
 };
+
+/// What a decoder may do with any bytes, it must be able to go on with.
+inline double bounded(double value)
+{
+    constexpr double most = 1e30;
+    return value > -most && value < most ? value : 0.0;
+}
 
 /// Whether a reader has run out of bits: then a walk may stop, what follows is refused anyway.
 template <class Coder>

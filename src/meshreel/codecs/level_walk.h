@@ -12,7 +12,6 @@
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/contexts.h"
 #include "meshreel/codecs/interpolation.h"
-#include "meshreel/codecs/surface_walk.h"
 #include "meshreel/coding/mixed_levels.h"
 #include "meshreel/coding/quantiser.h"
 

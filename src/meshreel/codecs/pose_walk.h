@@ -11,7 +11,6 @@
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/contexts.h"
 #include "meshreel/codecs/pose_order.h"
-#include "meshreel/codecs/surface_walk.h"
 #include "meshreel/coding/mixed_levels.h"
 #include "meshreel/coding/quantiser.h"
 #include "meshreel/predict/kriging.h"

@@ -15,13 +15,6 @@
 
 namespace meshreel::codecs {
 
-/// What a decoder may do with any bytes, it must be able to go on with.
-inline double bounded(double value)
-{
-    constexpr double most = 1e30;
-    return value > -most && value < most ? value : 0.0;
-}
-
 /// Codes components 0 .. n-1 of all vertices in the order in which Edgebreaker meets them, each predicted by the mean
 /// of all its parallelograms and by what least squares has learned of how those fail.
 /// @cost O(n W).
