@@ -27,15 +27,40 @@ Bytes written(Entropy entropy, const coding::Contexts& contexts, const Body& bod
     return all(coding::RangeWriter(contexts));
 }
 
-/// Calls body(coder) with the reader that the entropy coder names. @fails bad_input: too few bits.
+/// The same with a bare range coder, for codecs that mix probabilities of their own.
+template <class Body>
+Bytes range_written(const Body& body)
+{
+    coding::RangeEncoder core;
+    body(core);
+    return core.finish();
+}
+
+/// Whether a reader found what it looked for. @fails bad_input: too few bits.
+template <class Coder>
+Status complete(const Coder& coder)
+{
+    if (coder.overrun()) return bad_input("ends too early");
+    return Ok{};
+}
+
+/// Calls body(core) with a bare range decoder. @fails as complete().
+template <class Body>
+Status range_taken(ByteView bits, const Body& body)
+{
+    coding::RangeDecoder core(bits);
+    body(core);
+    return complete(core);
+}
+
+/// Calls body(coder) with the reader that the entropy coder names. @fails as complete().
 template <class Body>
 Status taken(Entropy entropy, ByteView bits, const coding::Contexts& contexts, const Body& body)
 {
     const auto all = [&](auto opened) -> Status {
         MESHREEL_TRY(auto coder, std::move(opened));
         body(coder);
-        if (coder.overrun()) return bad_input("ends too early");
-        return Ok{};
+        return complete(coder);
     };
     if (entropy == Entropy::huffman) return all(coding::HuffmanReader::open(bits, contexts));
     return all(coding::RangeReader::open(bits, contexts));

@@ -9,7 +9,8 @@
 #include <optional>
 
 #include "meshreel/base/text.h"
-#include "meshreel/codecs/contexts.h"
+#include "meshreel/codecs/components.h"
+#include "meshreel/codecs/entropy.h"
 #include "meshreel/codecs/exact_walk.h"
 #include "meshreel/codecs/number_source.h"
 #include "meshreel/container/explain.h"
@@ -252,12 +253,9 @@ Status read_lossless(const Coded& coded, MatrixView<float> frames)
         strands[c] = std::make_unique<Strand<coding::RangeDecoder>>(coding::RangeDecoder{payload.coordinates[c].bits},
                                                                     payload.coordinates[c].line, ring);
     walk_frames(strands, guess ? &*guess : nullptr, frames, coded.threads);
-    for (std::size_t c = 0; c < 3; ++c) {
-        if (!strands[c]->core.overrun()) continue;
-        const ByteView bits = payload.coordinates[c].bits;
-        return bad_input("ends too early", concat(source.name, ".", std::string_view("xyz").substr(c, 1), ".bits"),
-                         at_byte(source.offset + static_cast<std::uint64_t>(bits.data() - source.bytes.data())));
-    }
+    for (std::size_t c = 0; c < 3; ++c)
+        MESHREEL_CHECK(at_part(complete(strands[c]->core), source, payload.coordinates[c].bits,
+                               concat(std::string_view("xyz").substr(c, 1), ".bits")));
     return Ok{};
 }
 

@@ -3,13 +3,12 @@
 #include "meshreel/codecs/pca_codec.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "meshreel/codecs/choice.h"
+#include "meshreel/codecs/components.h"
 #include "meshreel/codecs/entropy.h"
 #include "meshreel/container/explain.h"
-#include "meshreel/linalg/pca.h"
 
 namespace meshreel::codecs {
 
@@ -57,10 +56,10 @@ Status read_basis(const PcaPayload& payload, Basis& basis)
                  [&](auto& coder) { code_basis(coder, payload.law, grid_of(payload.entropy), basis); });
 }
 
-class PcaEncoder : public Encoder {
+class PcaEncoder : public ComponentEncoder {
 public:
     PcaEncoder(const Sequence& sequence, std::size_t max_bases, Threads threads, StudyResiduals study)
-        : sequence_(sequence), pca_(linalg::pca_of_trajectories(sequence.frames, max_bases, threads))
+        : ComponentEncoder(sequence, max_bases, threads)
     {
         const Matrix<double> C = linalg::project(sequence.frames, pca_.mean, pca_.basis.view(), threads).C;
         mean_absolute_ = linalg::mean_absolute(C.view());
@@ -69,28 +68,16 @@ public:
         residuals_ = study(sequence_, rounded.view());
     }
 
-    double energy() const override { return pca_.energy; }
-
-    std::span<const double> singular_values() const override { return pca_.singular_values; }
-
     Trial encode(const Settings& settings) const override
     {
         CodedBasis coded = code_basis(settings);
-        const MatrixView<const double> basis = coded.basis.rows.view();
-        linalg::Projection projection = linalg::project(sequence_.frames, coded.basis.mean, basis, settings.threads);
-        const Matrix<double> wanted = projection.C;
-        const Bytes residual_bits = residuals_->write(coded.payload, projection.C.view());
-        coded.payload.basis_bits = coded.bits;
-        coded.payload.residual_bits = residual_bits;
-        Result<Bytes> bytes = container::write_fields(coded.payload);
-        assert(bytes.ok());
-        const double error =
-            projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), basis);
-        return {*std::move(bytes),
-                coded.payload.bases,
-                coded.payload.step,
-                error,
-                {std::move(coded.basis), std::move(projection.C)}};
+        Bytes residual_bits;
+        return trial_of(std::move(coded.basis), settings.threads, [&](MatrixView<double> C) {
+            residual_bits = residuals_->write(coded.payload, C);
+            coded.payload.basis_bits = coded.bits;
+            coded.payload.residual_bits = residual_bits;
+            return coded.payload;
+        });
     }
 
 private:
@@ -118,21 +105,9 @@ private:
         return coded;
     }
 
-    Sequence sequence_;
-    linalg::Pca pca_;
     std::vector<double> mean_absolute_; ///< a_i (8.24), [all components]
     std::unique_ptr<ResidualWriter> residuals_;
 };
-
-/// An error of a part, at the place of that part.
-Status at(Status status, const container::Source& source, ByteView part, const char* field)
-{
-    if (status.ok()) return status;
-    Error error = std::move(status).error();
-    error.field = source.name + "." + field;
-    error.place = at_byte(source.offset + static_cast<std::uint64_t>(part.data() - source.bytes.data()));
-    return error;
-}
 
 } // namespace
 
@@ -146,16 +121,11 @@ Result<Trajectories> open_pca(const Coded& coded, ReadResiduals read)
 {
     const container::Source& source = coded.payload;
     MESHREEL_TRY(const PcaPayload payload, container::read_fields<PcaPayload>(source, coded.limits));
-    const std::uint64_t K = payload.bases, n = 3 * std::uint64_t{coded.frame_count}, W = coded.surface.vertex_count;
-    if (K > n)
-        return bad_input("more components than a trajectory has coordinates", source.name + ".bases",
-                         at_byte(source.offset));
-    if (K != 0 && (n + 2 * W) > coded.limits.max_memory / 8 / K)
-        return bad_input("the basis and its coefficients do not fit in the memory limit", source.name + ".bases",
-                         at_byte(source.offset));
+    MESHREEL_CHECK(check_bases(coded, payload.bases));
+    const std::size_t K = payload.bases, n = 3 * coded.frame_count, W = coded.surface.vertex_count;
     Trajectories result{{std::vector<double>(n), Matrix<double>(K, n)}, Matrix<double>(W, K)};
-    MESHREEL_CHECK(at(read_basis(payload, result.basis), source, payload.basis_bits, "basis_bits"));
-    MESHREEL_CHECK(at(read(payload, coded, result.C.view()), source, payload.residual_bits, "residual_bits"));
+    MESHREEL_CHECK(at_part(read_basis(payload, result.basis), source, payload.basis_bits, "basis_bits"));
+    MESHREEL_CHECK(at_part(read(payload, coded, result.C.view()), source, payload.residual_bits, "residual_bits"));
     return result;
 }
 

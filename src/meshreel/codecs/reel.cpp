@@ -3,15 +3,15 @@
 #include "meshreel/codecs/reel.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "meshreel/codecs/choice.h"
+#include "meshreel/codecs/components.h"
+#include "meshreel/codecs/entropy.h"
 #include "meshreel/codecs/level_walk.h"
 #include "meshreel/codecs/pose_walk.h"
 #include "meshreel/codecs/surface_walk.h"
 #include "meshreel/container/explain.h"
-#include "meshreel/linalg/pca.h"
 
 namespace meshreel::codecs {
 
@@ -91,45 +91,21 @@ Matrix<double> first_of(MatrixView<const double> C)
     return first;
 }
 
-/// Calls body(core) to write, and returns the bytes.
-template <class Body>
-Bytes range_written(const Body& body)
-{
-    coding::RangeEncoder core;
-    body(core);
-    return core.finish();
-}
-
-class ReelEncoder : public Encoder {
+class ReelEncoder : public ComponentEncoder {
 public:
-    ReelEncoder(const Sequence& sequence, std::size_t max_bases, Threads threads)
-        : sequence_(sequence), pca_(linalg::pca_of_trajectories(sequence.frames, max_bases, threads))
-    {
-    }
-
-    double energy() const override { return pca_.energy; }
-
-    std::span<const double> singular_values() const override { return pca_.singular_values; }
+    using ComponentEncoder::ComponentEncoder;
 
     Trial encode(const Settings& settings) const override
     {
         CodedBasis coded = code_basis(settings);
-        const MatrixView<const double> rows = coded.basis.rows.view();
-        linalg::Projection projection = linalg::project(sequence_.frames, coded.basis.mean, rows, settings.threads);
-        const Matrix<double> wanted = projection.C;
-        const CodedCoefficients bits = code_coefficients(coded, settings, projection.C.view());
-        coded.head.basis_bits = coded.bits;
-        coded.head.first_bits = bits.first;
-        coded.head.level_bits = bits.levels;
-        Result<Bytes> bytes = container::write_fields(coded.head);
-        assert(bytes.ok());
-        const double error =
-            projection.squared_error + linalg::squared_distance(wanted.view(), projection.C.view(), rows);
-        return {*std::move(bytes),
-                coded.head.bases,
-                coded.head.step,
-                error,
-                {std::move(coded.basis), std::move(projection.C)}};
+        CodedCoefficients bits;
+        return trial_of(std::move(coded.basis), settings.threads, [&](MatrixView<double> C) {
+            bits = code_coefficients(coded, settings, C);
+            coded.head.basis_bits = coded.bits;
+            coded.head.first_bits = bits.first;
+            coded.head.level_bits = bits.levels;
+            return coded.head;
+        });
     }
 
 private:
@@ -187,9 +163,6 @@ private:
         });
         return bits;
     }
-
-    Sequence sequence_;
-    linalg::Pca pca_;
 };
 
 std::unique_ptr<Encoder> prepare_reel(const Sequence& sequence, std::size_t max_bases, Threads threads)
@@ -197,50 +170,30 @@ std::unique_ptr<Encoder> prepare_reel(const Sequence& sequence, std::size_t max_
     return std::make_unique<ReelEncoder>(sequence, max_bases, threads);
 }
 
-/// Calls body(core) to read a part of the payload. @fails bad_input where it ends too early.
-template <class Body>
-Status range_read(const container::Source& source, ByteView part, const char* field, const Body& body)
-{
-    coding::RangeDecoder core(part);
-    body(core);
-    if (!core.overrun()) return Ok{};
-    return bad_input("ends too early", source.name + "." + field,
-                     at_byte(source.offset + static_cast<std::uint64_t>(part.data() - source.bytes.data())));
-}
-
-Status check_size(const ReelPayload& head, const Coded& coded)
-{
-    const std::uint64_t K = head.bases, n = 3 * std::uint64_t{coded.frame_count}, W = coded.surface.vertex_count;
-    const std::string field = coded.payload.name + ".bases";
-    if (K > n)
-        return bad_input("more components than a trajectory has coordinates", field, at_byte(coded.payload.offset));
-    if ((2 * n + 2 * W) > coded.limits.max_memory / 8 / (K + 1))
-        return bad_input("the basis and its coefficients do not fit in the memory limit", field,
-                         at_byte(coded.payload.offset));
-    return Ok{};
-}
-
 Result<Trajectories> open_reel(const Coded& coded)
 {
     const container::Source& source = coded.payload;
     MESHREEL_TRY(ReelPayload head, container::read_fields<ReelPayload>(source, coded.limits));
-    MESHREEL_CHECK(check_size(head, coded));
+    MESHREEL_CHECK(check_bases(coded, head.bases));
     head.law.step = head.step;
     const std::size_t K = head.bases, W = coded.surface.vertex_count, first = std::min(K, first_components);
+    const auto read = [&](ByteView part, const char* field, const auto& body) {
+        return at_part(range_taken(part, body), source, part, field);
+    };
     Matrix<double> Y(coded.frame_count, 3 * (K + 1));
-    MESHREEL_CHECK(range_read(source, head.basis_bits, "basis_bits", [&](coding::RangeDecoder& core) {
+    MESHREEL_CHECK(read(head.basis_bits, "basis_bits", [&](coding::RangeDecoder& core) {
         PoseWalk(core, coding::Quantiser{head.basis_step}).code(Y.view());
     }));
     WeighedBasis weighed = basis_of(Y.view(), head, static_cast<double>(W));
     Trajectories result{std::move(weighed.basis), Matrix<double>(W, K)};
     Matrix<std::uint8_t> L(W, K);
-    MESHREEL_CHECK(range_read(source, head.first_bits, "first_bits", [&](coding::RangeDecoder& core) {
+    MESHREEL_CHECK(read(head.first_bits, "first_bits", [&](coding::RangeDecoder& core) {
         SurfaceWalk(core, coded.surface, coding::Quantiser{head.first_step}).code(first, result.C.view(), L.view());
     }));
     if (K == first) return result;
     const Interpolation interpolation(first_of(result.C.view()).view(), relevance_of(weighed.energies), head.law,
                                       coded.threads);
-    MESHREEL_CHECK(range_read(source, head.level_bits, "level_bits", [&](coding::RangeDecoder& core) {
+    MESHREEL_CHECK(read(head.level_bits, "level_bits", [&](coding::RangeDecoder& core) {
         LevelWalk(core, interpolation, coding::Quantiser{head.step}).code(first, result.C.view(), L.view());
     }));
     return result;
