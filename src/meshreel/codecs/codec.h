@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "meshreel/base/limits.h"
 #include "meshreel/base/views.h"
+#include "meshreel/codecs/detail.h"
 #include "meshreel/codecs/settings.h"
 #include "meshreel/codecs/trajectories.h"
 #include "meshreel/connectivity/surface.h"
@@ -52,6 +54,9 @@ struct Coded {
     std::size_t frame_count;
     DecodeLimits limits;
     Threads threads;
+    /// Surface vertices, if only these are wanted: of a codec with levels of detail, whose payload may then end with the
+    /// coarsest level that has them all.
+    std::optional<std::span<const std::uint32_t>> wanted = {};
 };
 
 /// One row of the registry.
@@ -62,7 +67,7 @@ struct Codec {
     /// max_bases: no trial will use more components than these.
     std::unique_ptr<Encoder> (*prepare)(const Sequence& sequence, std::size_t max_bases, Threads threads);
 
-    /// The trajectories of a payload; null for an exact codec. Memory: what its header promises, within limits.
+    /// The trajectories of a payload, of vertices not wanted whatever is known; null for an exact codec. Memory: what its header promises, within limits.
     /// @fails bad_input, naming byte and field.
     Result<Trajectories> (*open)(const Coded& coded);
 
@@ -73,13 +78,20 @@ struct Codec {
     /// concerns. Null for a codec of trajectories. @fails as open.
     Status (*frames)(const Coded& coded, MatrixView<float> frames) = nullptr;
 
+    /// The levels of detail of a payload; null for a codec without. @fails as open.
+    Result<Detail> (*detail)(const Coded& coded) = nullptr;
+    /// How many first bytes of a payload each of its levels takes, finest first, from the payload's first 256 bytes alone,
+    /// or all of it. Null where detail is. @fails as open.
+    Result<std::vector<std::uint64_t>> (*level_bytes)(const container::Source& payload,
+                                                      const DecodeLimits& limits) = nullptr;
+
     bool exact() const { return frames != nullptr; }
 };
 
-/// Fills frames [F x 3W] from a payload of F frames. @fails as Codec::open.
+/// Fills frames [F x 3W] from a payload of F frames; W: the vertices wanted, in that order. @fails as Codec::open.
 Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames);
 
-/// A payload decoded so far that any of its frames can be posed.
+/// A payload decoded so far that any of its frames can be posed: of the vertices wanted, in that order.
 using Opened = std::variant<Trajectories, Matrix<float>>;
 /// @fails as Codec::open.
 Result<Opened> open(const Codec& codec, const Coded& coded);

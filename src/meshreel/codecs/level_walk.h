@@ -32,14 +32,18 @@ public:
     }
 
     /// C [W x K], model units; columns before `first` are known. Writing: originals in. Afterwards C holds what the decoder
-    /// sees. L [W x K]: magnitudes of all levels, up to 255.
-    void code(std::size_t first, MatrixView<double> C, MatrixView<std::uint8_t> L)
+    /// sees. L [W x K]: magnitudes of all levels, up to 255. ends: vertices after which it is noted how far the bits have
+    /// come, rising, each an end of the order's; the walk ends with the last.
+    /// @return [ends] the bytes that a reader has taken there; fewer where bits are missing.
+    std::vector<std::uint64_t> code(std::size_t first, MatrixView<double> C, MatrixView<std::uint8_t> L,
+                                    std::span<const std::size_t> ends)
     {
         usual_.assign(C.cols, 1.0);
         own_.assign(C.rows, 0.5);
         const CoarseToFine& order = interpolation_.order();
+        std::vector<std::uint64_t> taken;
         std::size_t begin = 0;
-        for (std::size_t l = 0; l < order.ends.size() && !ended(core_); ++l) {
+        for (std::size_t l = 0; l < order.ends.size() && taken.size() < ends.size(); ++l) {
             const std::size_t end = order.ends[l];
             const Level level{std::span(order.order).subspan(begin, end - begin), depth_of(l), C, L};
             for (std::size_t k = first; k < C.cols && !ended(core_);) {
@@ -47,8 +51,11 @@ public:
                 code_batch(level, k, next);
                 k = next;
             }
+            if (ended(core_)) break;
+            if (end == ends[taken.size()]) taken.push_back(core_.position());
             begin = end;
         }
+        return taken;
     }
 
 private:

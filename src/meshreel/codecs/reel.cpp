@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshreel/base/text.h"
 #include "meshreel/codecs/choice.h"
 #include "meshreel/codecs/components.h"
 #include "meshreel/codecs/entropy.h"
@@ -17,12 +18,24 @@ namespace meshreel::codecs {
 
 namespace {
 
+constexpr std::size_t most_levels = 16;                           // of a quarter each, 4^16 vertices
+constexpr std::uint64_t most_part_bytes = std::uint64_t{1} << 40; // sums do not overflow
+
+/// Bytes of one level of detail.
+struct LevelSize {
+    std::uint64_t bytes = 0;
+
+    void fields(auto& io) { io.varint("bytes", bytes, {0, most_part_bytes}, "of level_bits that are this level's"); }
+};
+
 struct ReelPayload {
     std::uint32_t bases = 0;
     double step = 1.0, first_step = 1.0, basis_step = 1.0;
-    std::array<double, 3> origin{};
+    std::array<float, 3> origin{};
     InterpolationLaw law;
-    ByteView basis_bits, first_bits, level_bits;
+    std::uint64_t basis_size = 0, first_size = 0;
+    std::vector<LevelSize> levels;
+    ByteView bits;
 
     void fields(auto& io)
     {
@@ -30,17 +43,43 @@ struct ReelPayload {
         io.f64("step", step, container::positive, "D, quantisation step of the coefficients, model units");
         io.f64("first_step", first_step, container::positive, "the step of coefficients 0, 1, 2");
         io.f64("basis_step", basis_step, container::positive, "step of the poses, scaled by what they weigh");
-        io.f64("origin_x", origin[0], container::finite, "added to the mean's x in every frame");
-        io.f64("origin_y", origin[1], container::finite, "likewise y");
-        io.f64("origin_z", origin[2], container::finite, "likewise z");
+        io.f32("origin_x", origin[0], container::finite, "added to the mean's x in every frame");
+        io.f32("origin_y", origin[1], container::finite, "likewise y");
+        io.f32("origin_z", origin[2], container::finite, "likewise z");
         io.f64("linear", law.linear, {0.0, 1e6}, "trust in motions known already against smoothness");
         io.f64("squared_bend", law.squared_bend, {1e-6, 1e6}, "c^2 of the multiquadric");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
-        io.blob("basis_bits", basis_bits, container::any, "poses, see codecs/reel.md");
-        io.blob("first_bits", first_bits, container::any, "coefficients 0, 1, 2, see codecs/reel.md");
-        io.blob("level_bits", level_bits, container::any, "the other coefficients, see codecs/reel.md");
+        io.varint("basis_size", basis_size, {0, most_part_bytes}, "bytes of basis_bits");
+        io.varint("first_size", first_size, {0, most_part_bytes}, "bytes of first_bits");
+        io.list("levels", levels, {1, most_levels}, "levels of detail, the coarsest first");
+        io.rest("bits", bits, "basis_bits (poses), first_bits (coefficients 0, 1, 2), level_bits (the others)");
     }
 };
+
+/// The three streams of a payload.
+struct ReelBits {
+    ByteView basis, first, levels;
+    std::vector<std::uint64_t> level_ends; ///< [levels] bytes of `levels` up to each level's end, the coarsest first
+};
+
+/// Of a payload that may end with any level. @fails bad_input: it ends before all levels, or goes on after the last.
+Result<ReelBits> bits_of(const ReelPayload& payload, const container::Source& source)
+{
+    const std::uint64_t size = payload.bits.size();
+    const auto wrong = [&](const char* message, const char* field) {
+        return bad_input(message, source.name + "." + field, at_byte(source.offset + source.bytes.size()));
+    };
+    if (payload.basis_size > size) return wrong("ends too early", "basis_bits");
+    if (payload.first_size > size - payload.basis_size) return wrong("ends too early", "first_bits");
+    const std::size_t basis = static_cast<std::size_t>(payload.basis_size),
+                      first = static_cast<std::size_t>(payload.first_size);
+    ReelBits bits{
+        payload.bits.first(basis), payload.bits.subspan(basis, first), payload.bits.subspan(basis + first), {}};
+    std::uint64_t end = 0;
+    for (const LevelSize& level : payload.levels) bits.level_ends.push_back(end += level.bytes);
+    if (bits.levels.size() > end) return wrong("goes on after its last level", "level_bits");
+    return bits;
+}
 
 constexpr std::size_t first_components = SurfaceWalk<coding::RangeEncoder>::most;
 
@@ -83,12 +122,20 @@ WeighedBasis basis_of(MatrixView<const double> Y, const ReelPayload& head, doubl
     return result;
 }
 
-/// The components that place the vertices, [W x 3]; C has more.
+/// The components that place the vertices, [W x 3]; 0 where C has fewer.
 Matrix<double> first_of(MatrixView<const double> C)
 {
     Matrix<double> first(C.rows, first_components);
-    for (std::size_t v = 0; v < C.rows; ++v) std::copy_n(C.row(v).data(), first_components, first.row(v).data());
+    for (std::size_t v = 0; v < C.rows; ++v)
+        std::copy_n(C.row(v).data(), std::min(C.cols, first_components), first.row(v).data());
     return first;
+}
+
+/// From coarse to fine.
+std::vector<std::size_t> rising(std::vector<std::size_t> counts)
+{
+    std::ranges::reverse(counts);
+    return counts;
 }
 
 class ReelEncoder : public ComponentEncoder {
@@ -98,12 +145,9 @@ public:
     Trial encode(const Settings& settings) const override
     {
         CodedBasis coded = code_basis(settings);
-        CodedCoefficients bits;
         return trial_of(std::move(coded.basis), settings.threads, [&](MatrixView<double> C) {
-            bits = code_coefficients(coded, settings, C);
-            coded.head.basis_bits = coded.bits;
-            coded.head.first_bits = bits.first;
-            coded.head.level_bits = bits.levels;
+            code_coefficients(coded, settings, C);
+            coded.head.bits = coded.bits;
             return coded.head;
         });
     }
@@ -113,10 +157,7 @@ private:
         ReelPayload head;
         Basis basis;
         std::vector<double> energies;
-        Bytes bits;
-    };
-    struct CodedCoefficients {
-        Bytes first, levels;
+        Bytes bits; ///< of the payload
     };
 
     /// A basis as the decoder will see it. A component that the step leaves nothing of ends it.
@@ -139,6 +180,7 @@ private:
             const auto nothing = std::find(weighed.energies.begin(), weighed.energies.end(), 0.0);
             if (nothing == weighed.energies.end()) {
                 coded.head.bases = static_cast<std::uint32_t>(K);
+                coded.head.basis_size = coded.bits.size();
                 coded.basis = std::move(weighed.basis);
                 coded.energies = std::move(weighed.energies);
                 return coded;
@@ -147,21 +189,33 @@ private:
         }
     }
 
-    CodedCoefficients code_coefficients(const CodedBasis& coded, const Settings& settings, MatrixView<double> C) const
+    /// Adds the bits of the coefficients, and their sizes.
+    void code_coefficients(CodedBasis& coded, const Settings& settings, MatrixView<double> C) const
     {
         const std::size_t first = std::min(C.cols, first_components);
         Matrix<std::uint8_t> L(C.rows, C.cols);
-        CodedCoefficients bits;
-        bits.first = range_written([&](coding::RangeEncoder& core) {
+        const Bytes first_bits = range_written([&](coding::RangeEncoder& core) {
             SurfaceWalk(core, sequence_.surface, {coded.head.first_step, settings.dead_zone}).code(first, C, L.view());
         });
-        if (C.cols == first) return bits;
+        coded.head.first_size = first_bits.size();
         const Interpolation interpolation(first_of(C).view(), relevance_of(coded.energies), coded.head.law,
                                           settings.threads);
-        bits.levels = range_written([&](coding::RangeEncoder& core) {
-            LevelWalk(core, interpolation, {coded.head.step, settings.dead_zone}).code(first, C, L.view());
-        });
-        return bits;
+        const std::vector<std::size_t> counts = rising(detail_counts(interpolation.order()));
+        std::vector<std::uint64_t> ends(counts.size(), 0);
+        Bytes level_bits;
+        if (C.cols > first)
+            level_bits = range_written([&](coding::RangeEncoder& core) {
+                ends = LevelWalk(core, interpolation, {coded.head.step, settings.dead_zone})
+                           .code(first, C, L.view(), counts);
+            });
+        std::uint64_t begin = 0;
+        for (const std::uint64_t end : ends) {
+            const std::uint64_t there = std::min<std::uint64_t>(end, level_bits.size());
+            coded.head.levels.push_back({there - begin});
+            begin = there;
+        }
+        coded.bits.insert(coded.bits.end(), first_bits.begin(), first_bits.end());
+        coded.bits.insert(coded.bits.end(), level_bits.begin(), level_bits.end());
     }
 };
 
@@ -170,33 +224,131 @@ std::unique_ptr<Encoder> prepare_reel(const Sequence& sequence, std::size_t max_
     return std::make_unique<ReelEncoder>(sequence, max_bases, threads);
 }
 
+/// [W x K] and the magnitudes of their levels.
+struct Coefficients {
+    MatrixView<double> C;
+    MatrixView<std::uint8_t> L;
+};
+
+/// A payload's parts, and how to read one.
+struct ReelReader {
+    const container::Source& source;
+    ReelPayload head;
+    ReelBits bits;
+    std::size_t K = 0, first = 0;
+
+    static Result<ReelReader> open(const Coded& coded)
+    {
+        MESHREEL_TRY(ReelPayload head, container::read_fields<ReelPayload>(coded.payload, coded.limits));
+        MESHREEL_CHECK(check_bases(coded, head.bases));
+        head.law.step = head.step;
+        MESHREEL_TRY(ReelBits bits, bits_of(head, coded.payload));
+        if (head.bases <= first_components && bits.level_ends.back() > 0)
+            return bad_input("is not empty, but there are no further components", coded.payload.name + ".level_bits",
+                             at_byte(coded.payload.offset));
+        const std::size_t K = head.bases;
+        return ReelReader{coded.payload, std::move(head), std::move(bits), K, std::min(K, first_components)};
+    }
+
+    Status read(ByteView part, const char* field, const auto& body) const
+    {
+        return at_part(range_taken(part, body), source, part, field);
+    }
+
+    Status first_components_of(const connectivity::Surface& surface, MatrixView<double> C,
+                               MatrixView<std::uint8_t> L) const
+    {
+        return read(bits.first, "first_bits", [&](coding::RangeDecoder& core) {
+            SurfaceWalk(core, surface, coding::Quantiser{head.first_step}).code(first, C, L);
+        });
+    }
+
+    /// @fails bad_input: another number of levels than the vertices make.
+    Status check_levels(std::span<const std::size_t> counts) const
+    {
+        if (counts.size() == bits.level_ends.size()) return Ok{};
+        return bad_input(
+            concat("there are ", bits.level_ends.size(), " levels of detail, but its vertices make ", counts.size()),
+            source.name + ".levels", at_byte(source.offset));
+    }
+};
+
+/// Counts up to the coarsest level that has all vertices wanted, rising.
+std::vector<std::size_t> counts_wanted(std::vector<std::size_t> counts, const CoarseToFine& order, const Coded& coded)
+{
+    if (!coded.wanted) return counts;
+    std::vector<bool> missing(order.order.size());
+    for (const std::uint32_t v : *coded.wanted) missing[v] = true;
+    std::size_t last = order.order.size();
+    while (last > 0 && !missing[order.order[last - 1]]) --last;
+    const auto end = std::ranges::lower_bound(counts, last);
+    if (end != counts.end()) counts.erase(end + 1, counts.end());
+    return counts;
+}
+
+/// The components after the first ones.
+Status read_levels(const ReelReader& reader, const Coded& coded, const Interpolation& interpolation,
+                   const Coefficients& result)
+{
+    std::vector<std::size_t> counts = rising(detail_counts(interpolation.order()));
+    MESHREEL_CHECK(reader.check_levels(counts));
+    counts = counts_wanted(std::move(counts), interpolation.order(), coded);
+    const std::uint64_t needed = reader.bits.level_ends[counts.size() - 1];
+    if (reader.bits.levels.size() < needed)
+        return at_part(bad_input("ends too early"), reader.source, reader.bits.levels, "level_bits");
+    const ByteView bits = reader.bits.levels.first(static_cast<std::size_t>(needed));
+    std::vector<std::uint64_t> ends;
+    MESHREEL_CHECK(reader.read(bits, "level_bits", [&](coding::RangeDecoder& core) {
+        ends = LevelWalk(core, interpolation, coding::Quantiser{reader.head.step})
+                   .code(reader.first, result.C, result.L, counts);
+    }));
+    if (std::ranges::equal(ends, std::span(reader.bits.level_ends).first(ends.size()))) return Ok{};
+    return bad_input("a level of detail ends at another byte than said", reader.source.name + ".levels",
+                     at_byte(reader.source.offset));
+}
+
 Result<Trajectories> open_reel(const Coded& coded)
 {
-    const container::Source& source = coded.payload;
-    MESHREEL_TRY(ReelPayload head, container::read_fields<ReelPayload>(source, coded.limits));
-    MESHREEL_CHECK(check_bases(coded, head.bases));
-    head.law.step = head.step;
-    const std::size_t K = head.bases, W = coded.surface.vertex_count, first = std::min(K, first_components);
-    const auto read = [&](ByteView part, const char* field, const auto& body) {
-        return at_part(range_taken(part, body), source, part, field);
-    };
-    Matrix<double> Y(coded.frame_count, 3 * (K + 1));
-    MESHREEL_CHECK(read(head.basis_bits, "basis_bits", [&](coding::RangeDecoder& core) {
-        PoseWalk(core, coding::Quantiser{head.basis_step}).code(Y.view());
+    MESHREEL_TRY(const ReelReader reader, ReelReader::open(coded));
+    const std::size_t W = coded.surface.vertex_count;
+    Matrix<double> Y(coded.frame_count, 3 * (reader.K + 1));
+    MESHREEL_CHECK(reader.read(reader.bits.basis, "basis_bits", [&](coding::RangeDecoder& core) {
+        PoseWalk(core, coding::Quantiser{reader.head.basis_step}).code(Y.view());
     }));
-    WeighedBasis weighed = basis_of(Y.view(), head, static_cast<double>(W));
-    Trajectories result{std::move(weighed.basis), Matrix<double>(W, K)};
-    Matrix<std::uint8_t> L(W, K);
-    MESHREEL_CHECK(read(head.first_bits, "first_bits", [&](coding::RangeDecoder& core) {
-        SurfaceWalk(core, coded.surface, coding::Quantiser{head.first_step}).code(first, result.C.view(), L.view());
-    }));
-    if (K == first) return result;
-    const Interpolation interpolation(first_of(result.C.view()).view(), relevance_of(weighed.energies), head.law,
+    WeighedBasis weighed = basis_of(Y.view(), reader.head, static_cast<double>(W));
+    Trajectories result{std::move(weighed.basis), Matrix<double>(W, reader.K)};
+    Matrix<std::uint8_t> L(W, reader.K);
+    MESHREEL_CHECK(reader.first_components_of(coded.surface, result.C.view(), L.view()));
+    if (reader.K == reader.first) return result;
+    const Interpolation interpolation(first_of(result.C.view()).view(), relevance_of(weighed.energies), reader.head.law,
                                       coded.threads);
-    MESHREEL_CHECK(read(head.level_bits, "level_bits", [&](coding::RangeDecoder& core) {
-        LevelWalk(core, interpolation, coding::Quantiser{head.step}).code(first, result.C.view(), L.view());
-    }));
+    MESHREEL_CHECK(read_levels(reader, coded, interpolation, {result.C.view(), L.view()}));
     return result;
+}
+
+Result<Detail> detail_reel(const Coded& coded)
+{
+    MESHREEL_TRY(const ReelReader reader, ReelReader::open(coded));
+    const std::size_t W = coded.surface.vertex_count;
+    Matrix<double> C(W, reader.first);
+    Matrix<std::uint8_t> L(W, reader.first);
+    MESHREEL_CHECK(reader.first_components_of(coded.surface, C.view(), L.view()));
+    Detail detail{first_of(C.view()), {}, {}};
+    CoarseToFine order = coarse_to_fine(detail.places.view(), 1, coded.threads);
+    detail.counts = detail_counts(order);
+    detail.order = std::move(order.order);
+    MESHREEL_CHECK(reader.check_levels(detail.counts));
+    return detail;
+}
+
+Result<std::vector<std::uint64_t>> level_bytes_reel(const container::Source& payload, const DecodeLimits& limits)
+{
+    MESHREEL_TRY(const ReelPayload head, container::read_fields<ReelPayload>(payload, limits));
+    std::uint64_t end = payload.bytes.size() - head.bits.size() + head.basis_size + head.first_size;
+    std::vector<std::uint64_t> ends;
+    for (const LevelSize& level : head.levels) ends.push_back(end += level.bytes);
+    std::ranges::reverse(ends);
+    return ends;
 }
 
 Status explain_reel(const container::Source& source, const DecodeLimits& limits, std::string& lines)
@@ -208,8 +360,10 @@ Status explain_reel(const container::Source& source, const DecodeLimits& limits,
 
 Codec reel()
 {
-    return {"reel", "PCA of trajectories, kriging from coarse to fine over vertices and over poses", prepare_reel,
-            open_reel, explain_reel};
+    return {"reel",       "PCA of trajectories, kriging from coarse to fine over vertices and over poses",
+            prepare_reel, open_reel,
+            explain_reel, nullptr,
+            detail_reel,  level_bytes_reel};
 }
 
 } // namespace meshreel::codecs

@@ -33,10 +33,26 @@ const Codec* find(std::string_view name)
     return nullptr;
 }
 
+namespace {
+
+/// The rows of the vertices wanted.
+Result<Trajectories> open_wanted(const Codec& codec, const Coded& coded)
+{
+    MESHREEL_TRY(Trajectories trajectories, codec.open(coded));
+    if (!coded.wanted) return trajectories;
+    const Matrix<double> all = std::move(trajectories.C);
+    trajectories.C = Matrix<double>(coded.wanted->size(), all.cols);
+    for (std::size_t i = 0; i < coded.wanted->size(); ++i)
+        std::ranges::copy(all.row((*coded.wanted)[i]), trajectories.C.row(i).begin());
+    return trajectories;
+}
+
+} // namespace
+
 Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames)
 {
     if (codec.exact()) return codec.frames(coded, frames);
-    MESHREEL_TRY(const Trajectories trajectories, codec.open(coded));
+    MESHREEL_TRY(const Trajectories trajectories, open_wanted(codec, coded));
     rebuild(trajectories, frames, coded.threads);
     return Ok{};
 }
@@ -44,7 +60,7 @@ Status decode(const Codec& codec, const Coded& coded, MatrixView<float> frames)
 Result<Opened> open(const Codec& codec, const Coded& coded)
 {
     if (!codec.exact()) {
-        MESHREEL_TRY(Trajectories trajectories, codec.open(coded));
+        MESHREEL_TRY(Trajectories trajectories, open_wanted(codec, coded));
         return Opened{std::move(trajectories)};
     }
     Matrix<float> frames(coded.frame_count, 3ul * coded.surface.vertex_count);

@@ -84,6 +84,8 @@ public:
     }
     /// Bytes written so far; what is still inside is at most four more.
     std::size_t size() const { return bytes_.size(); }
+    /// What Decoder::position() will say here, if the stream goes on long enough.
+    std::uint64_t position() const { return bytes_.size() + 4; }
     /// Ends the stream: the shortest bytes that, followed by zeros, decode to what was written.
     Bytes finish()
     {
