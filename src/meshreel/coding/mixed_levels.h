@@ -38,24 +38,22 @@ public:
     /// sizes: contexts of each table. judges: sets of mixing weights to choose from.
     MixedLevels(const Places& sizes, std::uint32_t judges) : judges_(judges)
     {
-        for (std::size_t i = 0; i < count; ++i) tables_[i].resize(sizes[i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            nonzero_[i].resize(sizes[i]);
+            beyond_[i].assign(sizes[i], nothing);
+        }
     }
 
     /// @param judge below the number given, as every place is below its table's size.
     template <class Core>
     std::int32_t code(Core& core, const Places& places, std::uint32_t judge, std::int32_t wanted)
     {
-        std::array<Counts*, count> counts;
-        for (std::size_t i = 0; i < count; ++i) counts[i] = &tables_[i][places[i]];
+        std::array<Bit*, count> bits;
+        for (std::size_t i = 0; i < count; ++i) bits[i] = &nonzero_[i][places[i]];
         Judge& mixers = judges_[judge];
-        const auto mixed = [&](Mixer<count>& mixer, Bit Counts::*bit, bool want) {
-            std::array<Bit*, count> bits;
-            for (std::size_t i = 0; i < count; ++i) bits[i] = &(counts[i]->*bit);
-            return mixer.code(core, bits, want);
-        };
-        if (!mixed(mixers.nonzero, &Counts::nonzero, wanted != 0)) return 0;
+        if (!mixers.nonzero.code(core, bits, wanted != 0)) return 0;
         const bool negative = core.bit(negative_, wanted < 0);
-        const std::uint32_t magnitude = code_magnitude(core, counts, mixers, size_of(wanted));
+        const std::uint32_t magnitude = code_magnitude(core, counts_of(places), mixers, size_of(wanted));
         const auto value = static_cast<std::int32_t>(magnitude < largest ? magnitude : largest);
         return negative ? -value : value;
     }
@@ -64,8 +62,10 @@ private:
     static constexpr std::uint32_t largest = 0x7fffffff;
     static constexpr std::uint32_t longest = 31, told = 16; ///< bits of a magnitude; how many lengths are learned apart
 
+    static constexpr std::uint32_t nothing = 0xffffffff;
+
+    /// What a context has learned about magnitudes. Most contexts of a stream never meet one: made when first needed.
     struct Counts {
-        Bit nonzero;
         std::array<Bit, told> longer;
         std::array<std::array<Bit, 3>, told> next; ///< [length] the bit below the leading one; the one after 0, after 1
     };
@@ -73,6 +73,18 @@ private:
         Mixer<count> nonzero, next, second;
         std::array<Mixer<count>, 8> longer;
     };
+
+    std::array<Counts*, count> counts_of(const Places& places)
+    {
+        for (std::size_t i = 0; i < count; ++i)
+            if (beyond_[i][places[i]] == nothing) {
+                beyond_[i][places[i]] = static_cast<std::uint32_t>(counts_.size());
+                counts_.emplace_back();
+            }
+        std::array<Counts*, count> counts;
+        for (std::size_t i = 0; i < count; ++i) counts[i] = &counts_[beyond_[i][places[i]]];
+        return counts;
+    }
 
     static std::uint32_t size_of(std::int32_t level)
     {
@@ -124,7 +136,9 @@ private:
         return magnitude << left | core.raw(wanted & ((1u << left) - 1u), count_of_bits);
     }
 
-    std::array<std::vector<Counts>, count> tables_;
+    std::array<std::vector<Bit>, count> nonzero_; ///< of each context: close together, most decisions are these
+    std::array<std::vector<std::uint32_t>, count> beyond_; ///< place of each context in counts_
+    std::vector<Counts> counts_;
     std::vector<Judge> judges_;
     Bit negative_;
 };
