@@ -9,26 +9,17 @@ namespace meshreel::codecs {
 
 namespace {
 
-struct Near {
-    double square;
-    std::uint32_t vertex;
-    bool operator<(const Near& other) const
-    {
-        return square != other.square ? square < other.square : vertex < other.vertex;
-    }
-};
-
-/// Squared distance over components 0 .. known-1, in four sums side by side.
-double squared_distance_of(std::span<const double> a, std::span<const double> b, std::size_t known)
+/// Squared distance in four sums side by side.
+double squared_distance_of(std::span<const double> a, std::span<const double> b)
 {
     std::array<double, 4> sums{};
     std::size_t k = 0;
-    for (; k + 4 <= known; k += 4)
+    for (; k + 4 <= a.size(); k += 4)
         for (std::size_t l = 0; l < 4; ++l) {
             const double difference = a[k + l] - b[k + l];
             sums[l] += difference * difference;
         }
-    for (; k < known; ++k) sums[k % 4] += (a[k] - b[k]) * (a[k] - b[k]);
+    for (; k < a.size(); ++k) sums[k % 4] += (a[k] - b[k]) * (a[k] - b[k]);
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
@@ -40,42 +31,71 @@ Interpolation::Interpolation(MatrixView<const double> first, std::vector<double>
 {
 }
 
-std::vector<Interpolation::Weights> Interpolation::weights(std::span<const std::uint32_t> vertices,
-                                                           MatrixView<const double> C, std::size_t known) const
+Interpolation::Level Interpolation::level(std::span<const std::uint32_t> vertices) const
 {
-    std::vector<Weights> result(vertices.size());
+    Level level{vertices, 0, 0, {}};
+    if (vertices.empty()) return level;
+    const std::span<const std::uint32_t> some = order_.nearest.row(vertices.front()); // all have as many
+    level.candidates =
+        static_cast<std::size_t>(std::find(some.begin(), some.end(), CoarseToFine::nobody) - some.begin());
+    for (const std::uint32_t v : vertices)
+        for (std::size_t i = 0; i < level.candidates; ++i) level.near.push_back({0.0, order_.nearest(v, i)});
+    return level;
+}
+
+std::vector<Interpolation::Weights> Interpolation::weights(Level& level, MatrixView<const double> C,
+                                                           std::size_t known) const
+{
+    std::vector<Weights> result(level.vertices.size());
+    if (level.candidates == 0) return result;
     constexpr std::size_t block = 64;
-    const std::size_t blocks = (vertices.size() + block - 1) / block;
+    const std::size_t blocks = (result.size() + block - 1) / block;
     parallel_for(blocks, blocks < 4 ? Threads{1} : threads_, [&](std::size_t task) {
         predict::Kriging kriging(known);
-        for (std::size_t i = task * block; i < std::min(vertices.size(), (task + 1) * block); ++i)
-            result[i] = of_vertex(vertices[i], C, kriging, known);
+        for (std::size_t i = task * block; i < std::min(result.size(), (task + 1) * block); i += kriging.lanes) {
+            const std::size_t count = std::min(kriging.lanes, result.size() - i);
+            weigh({level, C, known}, i, kriging, std::span(result).subspan(i, count));
+        }
     });
+    level.known = known;
     return result;
 }
 
-Interpolation::Weights Interpolation::of_vertex(std::uint32_t v, MatrixView<const double> C, predict::Kriging& kriging,
-                                                std::size_t known) const
+void Interpolation::weigh(const Task& task, std::size_t first, predict::Kriging& kriging,
+                          std::span<Weights> result) const
 {
-    std::array<Near, candidates> near;
-    std::size_t found = 0;
-    for (; found < candidates && order_.nearest(v, found) != CoarseToFine::nobody; ++found) {
-        const std::uint32_t u = order_.nearest(v, found);
-        near[found] = {squared_distance_of(C.row(u), C.row(v), known), u};
-    }
-    Weights result;
-    result.count = std::min(found, most);
-    if (result.count == 0) return result;
-    std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(found));
-    const std::span<const double> own = C.row(v);
-    for (std::size_t i = 0; i < result.count; ++i) {
-        const std::uint32_t u = result.vertices[i] = near[i].vertex;
-        const std::span<const double> its = C.row(u);
-        for (std::size_t k = 0; k < known; ++k) kriging.differences(k)[i] = relevance_[k] * (its[k] - own[k]);
+    const auto& [level, C, known] = task;
+    const std::size_t n = std::min(level.candidates, most);
+    for (std::size_t lane = 0; lane < result.size(); ++lane) {
+        const std::span<Near> near = level.of(first + lane);
+        const std::span<const double> own = C.row(level.vertices[first + lane]);
+        renew(near, own, task);
+        for (std::size_t i = 0; i < n; ++i) {
+            result[lane].vertices[i] = near[i].vertex;
+            const double* __restrict its = C.row(near[i].vertex).data();
+            for (std::size_t k = 0; k < known; ++k) kriging.differences(k)[i] = relevance_[k] * (its[k] - own[k]);
+        }
+        kriging.set(lane, n, known);
     }
     constexpr double nugget = 0.01, noise = 6.0;
-    result.values = kriging.weights(result.count, known, {law_.linear, law_.squared_bend, nugget, noise * law_.step});
-    return result;
+    const auto values = kriging.weights(n, {law_.linear, law_.squared_bend, nugget, noise * law_.step});
+    for (std::size_t lane = 0; lane < result.size(); ++lane) {
+        result[lane].count = n;
+        for (std::size_t i = 0; i < n; ++i) result[lane].values[i] = values[i][lane];
+    }
+}
+
+void Interpolation::renew(std::span<Near> near, std::span<const double> own, const Task& task)
+{
+    const std::size_t old = task.level.known, fresh = task.known - old;
+    for (Near& one : near)
+        one.square += squared_distance_of(task.C.row(one.vertex).subspan(old, fresh), own.subspan(old, fresh));
+    for (std::size_t i = 1; i < near.size(); ++i) { // by insertion: but for the first time, little is out of order
+        const Near one = near[i];
+        std::size_t place = i;
+        for (; place > 0 && one < near[place - 1]; --place) near[place] = near[place - 1];
+        near[place] = one;
+    }
 }
 
 void Interpolation::Weights::apply(MatrixView<const double> C, std::size_t first, std::span<double> guess) const

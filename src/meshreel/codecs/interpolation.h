@@ -43,14 +43,39 @@ public:
         /// guess = sum of w_i C_i over components first .. first + guess.size() - 1.
         void apply(MatrixView<const double> C, std::size_t first, std::span<double> guess) const;
     };
-    /// The weights of vertices of one level, from components 0 .. known-1 of theirs and of their neighbours'.
-    std::vector<Weights> weights(std::span<const std::uint32_t> vertices, MatrixView<const double> C,
-                                 std::size_t known) const;
+    struct Near {
+        double square; ///< distance in all components known
+        std::uint32_t vertex;
+        bool operator<(const Near& other) const
+        {
+            return square != other.square ? square < other.square : vertex < other.vertex;
+        }
+    };
+    /// The vertices of a level and their candidates, while their components become known.
+    struct Level {
+        std::span<const std::uint32_t> vertices;
+        std::size_t candidates; ///< of each vertex
+        std::size_t known;      ///< components in the squares
+        std::vector<Near> near; ///< [vertices x candidates] nearest first
+
+        std::span<Near> of(std::size_t i) { return std::span(near).subspan(i * candidates, candidates); }
+    };
+    Level level(std::span<const std::uint32_t> vertices) const;
+
+    /// The weights of the vertices of a level, from components 0 .. known-1 of theirs and of their neighbours'; known
+    /// never falls.
+    std::vector<Weights> weights(Level& level, MatrixView<const double> C, std::size_t known) const;
 
 private:
     static constexpr std::size_t candidates = 24; ///< nearest by the first components; the best 16 by all are used
 
-    Weights of_vertex(std::uint32_t v, MatrixView<const double> C, predict::Kriging& kriging, std::size_t known) const;
+    struct Task {
+        Level& level;
+        MatrixView<const double> C;
+        std::size_t known;
+    };
+    void weigh(const Task& task, std::size_t first, predict::Kriging& kriging, std::span<Weights> result) const;
+    static void renew(std::span<Near> near, std::span<const double> own, const Task& task);
 
     CoarseToFine order_;
     std::vector<double> relevance_;

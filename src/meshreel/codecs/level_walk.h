@@ -45,7 +45,7 @@ public:
         std::size_t begin = 0;
         for (std::size_t l = 0; l < order.ends.size() && taken.size() < ends.size(); ++l) {
             const std::size_t end = order.ends[l];
-            const Level level{std::span(order.order).subspan(begin, end - begin), depth_of(l), C, L};
+            Level level{interpolation_.level(std::span(order.order).subspan(begin, end - begin)), depth_of(l), C, L};
             for (std::size_t k = first; k < C.cols && !ended(core_);) {
                 const std::size_t next = std::min(C.cols, interpolation_.batch_end(k));
                 code_batch(level, k, next);
@@ -63,7 +63,7 @@ private:
                                    fine_columns = 46, seen_contexts = 243, judges = 12;
 
     struct Level {
-        std::span<const std::uint32_t> vertices;
+        Interpolation::Level near;
         std::uint32_t depth;
         MatrixView<double> C;
         MatrixView<std::uint8_t> L;
@@ -79,12 +79,12 @@ private:
         return static_cast<std::uint32_t>(std::min<std::size_t>(level / 7, depths - 1));
     }
 
-    void code_batch(const Level& level, std::size_t first, std::size_t last)
+    void code_batch(Level& level, std::size_t first, std::size_t last)
     {
-        const std::vector<Interpolation::Weights> weights = interpolation_.weights(level.vertices, level.C, first);
+        const std::vector<Interpolation::Weights> weights = interpolation_.weights(level.near, level.C, first);
         guess_.resize(last - first);
-        for (std::size_t i = 0; i < level.vertices.size() && !ended(core_); ++i) {
-            const std::size_t v = level.vertices[i];
+        for (std::size_t i = 0; i < weights.size() && !ended(core_); ++i) {
+            const std::size_t v = level.near.vertices[i];
             weights[i].apply(level.C, first, guess_);
             for (std::size_t k = first; k < last; ++k)
                 code_value(weights[i], {v, k, level.depth}, level, guess_[k - first]);

@@ -89,7 +89,9 @@ PoseOrder::Neighbours PoseOrder::nearest(std::size_t rank, std::size_t most, Mat
         for (std::size_t k = 1; k < relevance_.size(); ++k)
             kriging.differences(k)[i] = relevance_[k] * (Y(g, k + 2) - Y(f, k + 2));
     }
-    result.weights = kriging.weights(result.count, relevance_.size(), {100.0, 1.0, 0.005, 0.0});
+    kriging.set(0, result.count, relevance_.size());
+    const auto weights = kriging.weights(result.count, {100.0, 1.0, 0.005, 0.0});
+    for (std::size_t i = 0; i < result.count; ++i) result.weights[i] = weights[i][0];
     return result;
 }
 

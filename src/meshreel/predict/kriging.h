@@ -17,7 +17,7 @@ struct Likeness {
     double noise = 0.0;   ///< noise that does not shrink with the distance: noise / mean distance adds to the nugget
 };
 
-/// The neighbours of one point: what is known of each, less what is known of the point.
+/// The neighbours of a few points, solved side by side: what is known of each, less what is known of its point.
 ///
 /// With e_i the difference of neighbour i, in units of the mean |e_i|, covariances are a - phi(|e_i - e_j|) + linear *
 /// e_i . e_j with phi(r) = sqrt(c^2 + r^2) - c, a beyond its largest value; the best unbiased linear estimate follows
@@ -27,19 +27,28 @@ struct Likeness {
 class Kriging {
 public:
     static constexpr std::size_t most = 16; ///< neighbours
+    static constexpr std::size_t lanes = 4; ///< points
+
+    using Lanes = std::array<double, lanes>; ///< a number of each point
+    using Square = std::array<std::array<Lanes, most>, most>;
 
     /// For points of up to `dimensions` known values.
     explicit Kriging(std::size_t dimensions) : e_(dimensions * most) {}
 
-    /// The differences of known value k, all neighbours' side by side; set every one before weights().
+    /// The differences of known value k, all neighbours' side by side.
     std::span<double, most> differences(std::size_t k) { return std::span<double, most>(e_.data() + most * k, most); }
 
-    /// Weights of `count` neighbours, 1 <= count <= most, of sum 1, from known values 0 .. known-1. + - * / sqrt only.
-    /// @cost O(most^2 known + count^3).
-    std::array<double, most> weights(std::size_t count, std::size_t known, const Likeness& likeness) const;
+    /// Takes `count` differences of known values 0 .. known-1, as they are now, for those of a point, below `lanes`.
+    /// @cost O(count^2 known).
+    void set(std::size_t point, std::size_t count, std::size_t known);
+
+    /// Weights of the `count` neighbours, 1 <= count <= most, of each point set, of sum 1. + - * / sqrt only.
+    /// @cost O(count^3).
+    std::array<Lanes, most> weights(std::size_t count, const Likeness& likeness) const;
 
 private:
     std::vector<double> e_; ///< [dimensions x most]
+    Square G_{};            ///< e_i . e_j for j <= i
 };
 
 } // namespace meshreel::predict
