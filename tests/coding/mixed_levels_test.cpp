@@ -56,6 +56,35 @@ TEST(MixedLevels, CostLessWhereAContextTellsTheirSize)
     EXPECT_LT(static_cast<double>(cost(true)), 0.9 * static_cast<double>(cost(false)));
 }
 
+TEST(MixedLevels, ChooseTheLevelNextToTheNearestWhereItSavesEnough)
+{
+    RangeEncoder encoder;
+    MixedLevels<1> levels({1}, 1);
+    for (int i = 0; i < 500; ++i) levels.code(encoder, {0}, 0, 0);
+    EXPECT_EQ(levels.choose({0}, 0, {2.0, 0.0}, 1.2), 1);
+    EXPECT_EQ(levels.choose({0}, 0, {2.0, 0.1}, 1.2), 0);
+    EXPECT_EQ(levels.choose({0}, 0, {2.0, 0.1}, -1.2), 0);
+    EXPECT_EQ(levels.choose({0}, 0, {2.0, 0.1}, 2.2), 1);
+}
+
+TEST(MixedLevels, CostTheirPriceAndLearnNothingFromIt)
+{
+    const std::vector<std::int32_t> levels = levels_of_every_size();
+    RangeEncoder encoder;
+    MixedLevels<2> writer({1, 4}, 2);
+    double bits = 0;
+    for (std::uint32_t i = 0; i < levels.size(); ++i) {
+        Price price, again;
+        writer.code(price, {0, i % 4}, i % 2, levels[i]);
+        writer.code(again, {0, i % 4}, i % 2, levels[i]);
+        EXPECT_EQ(price.bits(), again.bits());
+        bits += price.bits();
+        writer.code(encoder, {0, i % 4}, i % 2, levels[i]);
+    }
+    const auto written = 8 * static_cast<double>(encoder.finish().size());
+    EXPECT_NEAR(bits, written, 0.001 * written);
+}
+
 TEST(MixedLevels, ReadAnyBytes)
 {
     std::mt19937 random(9);

@@ -77,7 +77,7 @@ void Interpolation::weigh(const Task& task, std::size_t first, predict::Kriging&
         }
         kriging.set(lane, n, known);
     }
-    constexpr double nugget = 0.01, noise = 6.0;
+    constexpr double nugget = 0.01, noise = 2.0;
     const auto values = kriging.weights(n, {law_.linear, law_.squared_bend, nugget, noise * law_.step});
     for (std::size_t lane = 0; lane < result.size(); ++lane) {
         result[lane].count = n;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "meshreel/base/exact.h"
 #include "meshreel/base/parallel.h"
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/contexts.h"
@@ -17,6 +18,20 @@
 
 namespace meshreel::codecs {
 
+/// How levels are quantised: the coarser, the finer, for on coarse ones all finer ones lean.
+struct Taper {
+    coding::Quantiser finest;
+    double exponent = 0.0; ///< the step is in proportion to (vertices of coarser levels)^exponent, >= 0
+
+    /// known: the share of vertices in coarser levels, [0, 1].
+    coding::Quantiser at(double known) const
+    {
+        constexpr double least = 0.1, least_price = 0.3;
+        const double fineness = known > 0 ? std::max(exact::power(known, exponent), least) : least;
+        return {finest.step * fineness, finest.bit_price * (least_price + (1 - least_price) * known)};
+    }
+};
+
 /// Codes components `first` .. K-1 level after level of a CoarseToFine order. Within a level components come in batches;
 /// before each batch every vertex' weights are found anew from all components known of it and of its neighbours. Vertices
 /// of a level do not depend on each other, so weights are found in parallel.
@@ -24,8 +39,8 @@ namespace meshreel::codecs {
 template <class Core>
 class LevelWalk {
 public:
-    LevelWalk(Core& core, const Interpolation& interpolation, coding::Quantiser quantiser)
-        : core_(core), interpolation_(interpolation), quantiser_(quantiser),
+    LevelWalk(Core& core, const Interpolation& interpolation, Taper taper)
+        : core_(core), interpolation_(interpolation), taper_(taper),
           levels_({near_columns * own_columns, rows * row_columns, near_columns * depths, fine_columns, seen_contexts},
                   judges)
     {
@@ -45,7 +60,9 @@ public:
         std::size_t begin = 0;
         for (std::size_t l = 0; l < order.ends.size() && taken.size() < ends.size(); ++l) {
             const std::size_t end = order.ends[l];
-            Level level{interpolation_.level(std::span(order.order).subspan(begin, end - begin)), depth_of(l), C, L};
+            const double known = static_cast<double>(begin) / static_cast<double>(C.rows);
+            Level level{interpolation_.level(std::span(order.order).subspan(begin, end - begin)), depth_of(l),
+                        taper_.at(known), C, L};
             for (std::size_t k = first; k < C.cols && !ended(core_);) {
                 const std::size_t next = std::min(C.cols, interpolation_.batch_end(k));
                 code_batch(level, k, next);
@@ -65,6 +82,7 @@ private:
     struct Level {
         Interpolation::Level near;
         std::uint32_t depth;
+        coding::Quantiser quantiser;
         MatrixView<double> C;
         MatrixView<std::uint8_t> L;
     };
@@ -100,15 +118,15 @@ private:
         double &value = level.C(v, k), &own = own_[v], &usual = usual_[k];
         const double expected = 0.45 * nearby + 0.3 * own + 0.25 * usual;
         const auto row = static_cast<std::uint32_t>(std::min<std::size_t>(k, rows - 1));
-        const std::int32_t wanted = Core::writes ? quantiser_.level(value - guess) : 0;
-        const std::int32_t coded = levels_.code(
-            core_,
-            {coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
-             row * row_columns + coding::octave_column<0>(expected, row_columns),
-             coding::octave_column<1>(usual, near_columns) * depths + depth,
-             coding::octave_column<2>(expected, fine_columns), seen(near, place, level.L)},
-            coding::octave_column<0>(expected, judges), wanted);
-        value = bounded(guess + quantiser_.value(coded));
+        const coding::MixedLevels<5>::Places places = {
+            coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
+            row * row_columns + coding::octave_column<0>(expected, row_columns),
+            coding::octave_column<1>(usual, near_columns) * depths + depth,
+            coding::octave_column<2>(expected, fine_columns), seen(near, place, level.L)};
+        const std::uint32_t judge = coding::octave_column<0>(expected, judges);
+        const std::int32_t wanted = Core::writes ? levels_.choose(places, judge, level.quantiser, value - guess) : 0;
+        const std::int32_t coded = levels_.code(core_, places, judge, wanted);
+        value = bounded(guess + level.quantiser.value(coded));
         const std::uint32_t size = magnitude(coded);
         level.L(v, k) = static_cast<std::uint8_t>(std::min(size, 255u));
         own += 0.3 * (size - own);
@@ -139,7 +157,7 @@ private:
 
     Core& core_;
     const Interpolation& interpolation_;
-    coding::Quantiser quantiser_;
+    Taper taper_;
     coding::MixedLevels<5> levels_;
     std::vector<double> usual_; ///< [K] how large the levels of a component have been of late
     std::vector<double> own_;   ///< [W] and those of a vertex

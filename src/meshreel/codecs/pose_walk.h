@@ -95,14 +95,13 @@ private:
         double &own = own_[place.f], &usual = usual_[place.c];
         const double expected = 0.4 * nearby + 0.35 * own + 0.25 * usual;
         const auto row = static_cast<std::uint32_t>(std::min<std::size_t>(place.c / 3, rows - 1));
-        const std::int32_t wanted = Core::writes ? quantiser_.level(value - guess) : 0;
-        const std::int32_t level = levels_.code(
-            core_,
-            {coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
-             row * row_columns + coding::octave_column<0>(expected, row_columns),
-             coding::octave_column<1>(usual, near_columns) * ages + place.age,
-             coding::octave_column<2>(expected, fine_columns)},
-            0, wanted);
+        const coding::MixedLevels<4>::Places places = {
+            coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
+            row * row_columns + coding::octave_column<0>(expected, row_columns),
+            coding::octave_column<1>(usual, near_columns) * ages + place.age,
+            coding::octave_column<2>(expected, fine_columns)};
+        const std::int32_t wanted = Core::writes ? levels_.choose(places, 0, quantiser_, value - guess) : 0;
+        const std::int32_t level = levels_.code(core_, places, 0, wanted);
         value = bounded(guess + quantiser_.value(level));
         const std::uint32_t size = magnitude(level);
         levels_seen_(place.f, place.c) = static_cast<std::uint8_t>(std::min(size, 255u));

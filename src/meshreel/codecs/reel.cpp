@@ -28,14 +28,19 @@ struct LevelSize {
     void fields(auto& io) { io.varint("bytes", bytes, {0, most_part_bytes}, "of level_bits that are this level's"); }
 };
 
+constexpr std::uint32_t taper_one = 256;
+
 struct ReelPayload {
     std::uint32_t bases = 0;
     double step = 1.0, first_step = 1.0, basis_step = 1.0;
     std::array<float, 3> origin{};
+    std::uint32_t taper = 0;
     InterpolationLaw law;
     std::uint64_t basis_size = 0, first_size = 0;
     std::vector<LevelSize> levels;
     ByteView bits;
+
+    double taper_exponent() const { return taper / static_cast<double>(taper_one); }
 
     void fields(auto& io)
     {
@@ -46,6 +51,8 @@ struct ReelPayload {
         io.f32("origin_x", origin[0], container::finite, "added to the mean's x in every frame");
         io.f32("origin_y", origin[1], container::finite, "likewise y");
         io.f32("origin_z", origin[2], container::finite, "likewise z");
+        io.varint("taper", taper, {0, taper_one},
+                  "2^-8: to which power of their share of vertices coarse levels are finer");
         io.f64("linear", law.linear, {0.0, 1e6}, "trust in motions known already against smoothness");
         io.f64("squared_bend", law.squared_bend, {1e-6, 1e6}, "c^2 of the multiquadric");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
@@ -169,12 +176,13 @@ private:
         coded.head.step = step_of(settings, pca_.singular_values, W);
         coded.head.first_step = settings.first_ratio * coded.head.step;
         coded.head.basis_step = settings.basis_ratio * coded.head.step;
+        coded.head.taper = static_cast<std::uint32_t>(std::lround(settings.taper * taper_one));
         coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth};
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);
             coded.bits = range_written([&](coding::RangeEncoder& core) {
-                PoseWalk(core, coding::Quantiser{coded.head.basis_step}).code(Y.view());
+                PoseWalk(core, coding::Quantiser{coded.head.basis_step, settings.bit_price}).code(Y.view());
             });
             WeighedBasis weighed = basis_of(Y.view(), coded.head, W);
             const auto nothing = std::find(weighed.energies.begin(), weighed.energies.end(), 0.0);
@@ -195,7 +203,7 @@ private:
         const std::size_t first = std::min(C.cols, first_components);
         Matrix<std::uint8_t> L(C.rows, C.cols);
         const Bytes first_bits = range_written([&](coding::RangeEncoder& core) {
-            SurfaceWalk(core, sequence_.surface, {coded.head.first_step, settings.dead_zone}).code(first, C, L.view());
+            SurfaceWalk(core, sequence_.surface, {coded.head.first_step, settings.bit_price}).code(first, C, L.view());
         });
         coded.head.first_size = first_bits.size();
         const Interpolation interpolation(first_of(C).view(), relevance_of(coded.energies), coded.head.law,
@@ -205,8 +213,9 @@ private:
         Bytes level_bits;
         if (C.cols > first)
             level_bits = range_written([&](coding::RangeEncoder& core) {
-                ends = LevelWalk(core, interpolation, {coded.head.step, settings.dead_zone})
-                           .code(first, C, L.view(), counts);
+                ends =
+                    LevelWalk(core, interpolation, {{coded.head.step, settings.bit_price}, coded.head.taper_exponent()})
+                        .code(first, C, L.view(), counts);
             });
         std::uint64_t begin = 0;
         for (const std::uint64_t end : ends) {
@@ -299,7 +308,7 @@ Status read_levels(const ReelReader& reader, const Coded& coded, const Interpola
     const ByteView bits = reader.bits.levels.first(static_cast<std::size_t>(needed));
     std::vector<std::uint64_t> ends;
     MESHREEL_CHECK(reader.read(bits, "level_bits", [&](coding::RangeDecoder& core) {
-        ends = LevelWalk(core, interpolation, coding::Quantiser{reader.head.step})
+        ends = LevelWalk(core, interpolation, {{reader.head.step}, reader.head.taper_exponent()})
                    .code(reader.first, result.C, result.L, counts);
     }));
     if (std::ranges::equal(ends, std::span(reader.bits.level_ends).first(ends.size()))) return Ok{};

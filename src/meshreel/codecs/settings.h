@@ -40,7 +40,9 @@ struct Settings {
                                              ///< the last of the bases allows
     std::optional<std::uint32_t> bases = {}; ///< K; none: the components with s_k / sqrt(W) >= truncation * D
     double truncation = 0.65;                ///< tau, see bases; > 0
-    double dead_zone = 0.5;                  ///< levels are 0 up to so many steps, [0.5, 1); 0.5 rounds
+    double bit_price = 0.0;                  ///< squared steps that saving a bit is worth, >= 0; 0 rounds (reel)
+    double taper = 0.15;                     ///< steps of coarse levels: D times the share of coarser vertices to that
+                                             ///< power, [0, 1] (reel)
     double first_ratio = 1.0;                ///< step of the components that give the geometry over D, > 0 (reel)
     double linear = 150.0;                   ///< trust in motions known already against smoothness, >= 0 (reel)
     double squared_bend = 1.0;               ///< up to which distance, squared, motions are smooth, > 0 (reel)

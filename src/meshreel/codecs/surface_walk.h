@@ -66,14 +66,13 @@ private:
             u = features(place, plain);
             guess = bounded(plain + amplitude() * learners_[k].predict(u));
         }
-        const std::int32_t wanted = Core::writes ? quantiser_.level(C(v, k) - guess) : 0;
         const auto row = static_cast<std::uint32_t>(k);
-        const std::int32_t level = levels_.code(
-            core_,
-            {row * columns + coding::octave_column<1>(near, columns),
-             coding::octave_column<1>(near, own_columns) * own_columns + coding::octave_column<1>(own, own_columns),
-             row * columns + coding::octave_column<1>(usual_[k], columns)},
-            row, wanted);
+        const coding::MixedLevels<3>::Places places = {row * columns + coding::octave_column<1>(near, columns),
+                                                       coding::octave_column<1>(near, own_columns) * own_columns +
+                                                           coding::octave_column<1>(own, own_columns),
+                                                       row * columns + coding::octave_column<1>(usual_[k], columns)};
+        const std::int32_t wanted = Core::writes ? levels_.choose(places, row, quantiser_, C(v, k) - guess) : 0;
+        const std::int32_t level = levels_.code(core_, places, row, wanted);
         C(v, k) = bounded(guess + quantiser_.value(level));
         missed_(v, k) = C(v, k) - plain;
         if (whole) learners_[k].learn(u, (C(v, k) - guess) / amplitude());

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "meshreel/coding/mixer.h"
+#include "meshreel/coding/price.h"
+#include "meshreel/coding/quantiser.h"
 #include "meshreel/coding/range_coder.h"
 
 namespace meshreel::coding {
@@ -56,6 +58,20 @@ public:
         const std::uint32_t magnitude = code_magnitude(core, counts_of(places), mixers, size_of(wanted));
         const auto value = static_cast<std::int32_t>(magnitude < largest ? magnitude : largest);
         return negative ? -value : value;
+    }
+
+    /// The level to code for a value: the nearest, or the one below it where the bits saved are worth more than the error.
+    std::int32_t choose(const Places& places, std::uint32_t judge, const Quantiser& quantiser, double value)
+    {
+        const std::int32_t nearest = quantiser.level(value);
+        const double steps = value / quantiser.step, beyond = nearest < 0 ? nearest - steps : steps - nearest;
+        if (nearest == 0 || beyond >= 0 || quantiser.bit_price == 0) return nearest;
+        const std::int32_t below = nearest < 0 ? nearest + 1 : nearest - 1;
+        Price much, less;
+        code(much, places, judge, nearest);
+        code(less, places, judge, below);
+        const double more_error = (1 + beyond) * (1 + beyond) - beyond * beyond;
+        return more_error < quantiser.bit_price * (much.bits() - less.bits()) ? below : nearest;
     }
 
 private:

@@ -55,7 +55,7 @@ private:
 template <std::size_t count>
 class Mixer {
 public:
-    /// Codes a decision that the given models estimate; all of them learn from it.
+    /// Codes a decision that the given models estimate; all of them learn from it, unless it is only priced.
     template <class Coder>
     bool code(Coder& coder, const std::array<Bit*, count>& models, bool wanted)
     {
@@ -67,6 +67,7 @@ public:
         }
         const std::uint32_t one = LogOdds::probability(sum >> weight_bits);
         const bool bit = coder.decide(one, wanted);
+        if constexpr (!learns<Coder>) return bit;
         const std::int32_t error = (bit ? 1 << Bit::precision : 0) - static_cast<std::int32_t>(one);
         for (std::size_t i = 0; i < count; ++i) {
             const std::int32_t weight = weights_[i] + ((odds[i] * error) >> rate_shift);

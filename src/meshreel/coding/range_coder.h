@@ -51,6 +51,10 @@ private:
     std::uint32_t count_ = 0;
 };
 
+/// Whether models learn from what a coder is told: not from a Price.
+template <class Coder>
+inline constexpr bool learns = true;
+
 /// Writes decisions. bit() and raw() return what they were given, as a Decoder returns what it found.
 class RangeEncoder {
 public:

@@ -36,12 +36,12 @@ Plan plan_of(int effort, Tune tune)
     plan.start.truncation = tune == Tune::sted ? 0.9 : 0.4;
     plan.start.basis_ratio = tune == Tune::sted ? 2.8 : 1.4;
     plan.start.first_ratio = tune == Tune::sted ? 0.45 : 1.0;
-    plan.start.dead_zone = tune == Tune::sted ? 0.6 : 0.54;
+    plan.start.bit_price = 0.14;
     plan.start.growth = row.growth;
     plan.knobs = {{&codecs::Settings::linear, 3.0, 10.0, 4000.0}, // the one whose best differs most between motions
                   {&codecs::Settings::basis_ratio, 1.3, 0.2, tune == Tune::sted ? 2.8 : 2.0},
                   {&codecs::Settings::truncation, 1.3, 0.05, 2.0},
-                  {&codecs::Settings::dead_zone, 1.06, 0.5, 0.75},
+                  {&codecs::Settings::bit_price, 1.3, 0.01, 0.2},
                   {&codecs::Settings::first_ratio, 1.25, 0.2, 2.0}};
     plan.knobs.resize(row.knobs);
     plan.rounds = row.rounds;
