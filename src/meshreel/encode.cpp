@@ -7,6 +7,7 @@
 
 #include "meshreel/base/text.h"
 #include "meshreel/codecs/codec.h"
+#include "meshreel/coding/quantiser.h"
 #include "meshreel/connectivity/topology.h"
 #include "meshreel/container/package.h"
 #include "meshreel/goal.h"
@@ -26,6 +27,7 @@ namespace {
 
 constexpr std::size_t usual_segment = 1000; // frames at most; the PCA grows with the cube of a segment's length
 constexpr std::uint32_t fast_growth = 16;   // 3 to 5 % more bits; 64 would be 10 to 15 %
+constexpr double fine_truncation = 0.08;    // whatever component is left out, some vertex misses it
 constexpr std::size_t usual_bases = 256;    // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
@@ -87,6 +89,7 @@ public:
             options_.progress,
         };
         codecs::Settings start = common(plan_.start);
+        if (limits_distance()) start.truncation = fine_truncation;
         start.step = likely_step(start);
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
         if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
@@ -129,6 +132,7 @@ private:
         return options_.tune.value_or(sees ? Tune::sted : Tune::kg);
     }
 
+    bool limits_distance() const { return options_.quality.max_error || options_.quality.max_error_relative; }
     bool limits_size() const { return std::isfinite(allowed_.bytes); }
     bool wants_sted() const { return std::isfinite(allowed_.sted) || (limits_size() && tune() == Tune::sted); }
 
@@ -164,8 +168,9 @@ private:
     }
 
     /// Encodes all segments and measures what the decoder will see, nearly: in surface order, before rounding.
-    Result<tune::Attempt> attempted(const codecs::Settings& settings)
+    Result<tune::Attempt> attempted(codecs::Settings settings)
     {
+        settings.step = std::max(settings.step, settings.step > 0 ? finest_step() : 0.0);
         tune::Attempt attempt;
         attempt.settings = settings;
         double squared_error = 0, sted = 0;
@@ -234,6 +239,13 @@ private:
 
     std::size_t most_bases() const { return std::min<std::size_t>(3 * segments_.back().count, surface().vertex_count); }
 
+    /// Below it levels would saturate, and float32 could not tell the difference.
+    double finest_step() const
+    {
+        const double largest_coefficient = diagonal() * std::sqrt(static_cast<double>(frames_.rows));
+        return largest_coefficient / coding::Quantiser::largest_level;
+    }
+
     /// The step at which the error should be about what is allowed.
     double likely_step(const codecs::Settings& settings) const
     {
@@ -253,20 +265,16 @@ private:
     }
 
     /// The squared error at a step: of coefficients and basis, less than D^2 / 12 a value as most levels are 0; and what
-    /// the components left out hold.
+    /// the components left out hold, of those prepared.
     double likely_error(const codecs::Settings& settings, double step) const
     {
         const double W = surface().vertex_count, basis = settings.basis_ratio * settings.basis_ratio;
         double error = 0;
-        for (std::size_t s = 0; s < encoders_.size(); ++s) {
-            double left = encoders_[s]->energy();
-            for (double value : encoders_[s]->singular_values()) {
-                if (value < settings.truncation * step * std::sqrt(W)) break;
-                error += (W + 3 * static_cast<double>(segments_[s].count) * basis) * step * step / 20;
-                left -= value * value;
-            }
-            error += std::max(left, 0.0);
-        }
+        for (std::size_t s = 0; s < encoders_.size(); ++s)
+            for (double value : encoders_[s]->singular_values())
+                error += value < settings.truncation * step * std::sqrt(W)
+                             ? value * value
+                             : (W + 3 * static_cast<double>(segments_[s].count) * basis) * step * step / 20;
         return error;
     }
 

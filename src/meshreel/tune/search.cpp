@@ -14,8 +14,7 @@ namespace {
 using codecs::Settings;
 
 constexpr double aimed_excess = 0.992; // what the next attempt aims at
-constexpr double good_excess = 0.98;   // worth verifying
-constexpr double least_excess = 0.97;  // good enough where verified
+constexpr double least_excess = 0.97;  // worth verifying, and then good enough
 constexpr double no_bracket = std::numeric_limits<double>::infinity();
 
 /// The excess along the step, everything else being equal: y = log excess over x = log step, turned so that it rises.
@@ -38,12 +37,12 @@ public:
     {
         for (Point& point : points_) point.y += std::log(factor);
     }
-    /// Whether more attempts could tell anything: not where the last two are far apart and agree.
+    /// Whether more attempts could tell nothing: the last two are far apart, or one and the same, and agree.
     bool flat() const
     {
         if (points_.size() < 2) return false;
         const Point &a = points_.back(), &b = points_[points_.size() - 2];
-        return std::abs(a.y - b.y) < 1e-6 && std::abs(a.x - b.x) > 0.5;
+        return std::abs(a.y - b.y) < 1e-6 && (a.x == b.x || std::abs(a.x - b.x) > 0.5);
     }
     bool narrow() const
     {
@@ -199,9 +198,11 @@ private:
     Result<Attempt> land(Attempt attempt, Line line)
     {
         constexpr int enough_attempts = 8, most_attempts = 20; // enough where one keeps the limit
+        const double usual_truncation = attempt.settings.truncation;
         Landing landing;
         for (int i = 1;; ++i) {
             attempt.excess *= landing.correction;
+            if (problem_.rises && landing.holds_first(attempt)) line.restart(); // fewer components have another line
             line.add(attempt);
             Settings settings = attempt.settings;
             landing.consider(std::move(attempt));
@@ -209,6 +210,7 @@ private:
             if (landing.promising() || settled) MESHREEL_CHECK(verify(landing, line));
             if (landing.reached >= least_excess || (settled && landing.best) || i == most_attempts) break;
             settings.step = line.next();
+            settings.truncation = landing.enough ? *landing.enough / settings.step : usual_truncation;
             MESHREEL_TRY(attempt, attempted(settings));
         }
         if (landing.best) return *std::move(landing.best);
@@ -220,13 +222,22 @@ private:
         std::optional<Attempt> candidate, best; ///< nearest below the limit: not verified yet, and verified
         double correction = 1.0;                ///< of excesses, as verification taught
         double reached = 0.0;                   ///< the verified excess of the best
+        std::optional<double> enough;           ///< truncation x step of the first that kept the limit: errors jump
+                                                ///< where a component is left out
 
+        /// Whether an attempt is the first to keep the limit, and not by far: later ones get as many components.
+        bool holds_first(const Attempt& attempt)
+        {
+            if (enough || attempt.excess > 1.0 || attempt.excess < 0.6) return false;
+            enough = attempt.settings.truncation * attempt.settings.step;
+            return true;
+        }
         void consider(Attempt attempt)
         {
             if (attempt.excess <= 1.0 && attempt.excess > (candidate ? candidate->excess : reached))
                 candidate = std::move(attempt);
         }
-        bool promising() const { return candidate && candidate->excess >= good_excess; }
+        bool promising() const { return candidate && candidate->excess >= least_excess; }
     };
 
     Status verify(Landing& landing, Line& line) const
