@@ -26,6 +26,8 @@ public:
         app.add_option("--fps", source_.fps, "frames a second: moves between the stored frames, smoothly")
             ->check(positive())
             ->type_name("N");
+        app.add_option("--level", source_.level, "level of detail: 0 is everything, each further one about a quarter")
+            ->type_name("N");
         source_.declare_limits(app);
         target_.declare(app);
         app.footer("Examples:\n"
@@ -33,7 +35,8 @@ public:
                    "  meshreel decode out.reel back.pc2 --mesh-out mesh.obj\n"
                    "  meshreel decode out.reel back.mdd --base mesh.obj\n"
                    "  meshreel decode walk.reel walk.glb --morphs pca\n"
-                   "  meshreel decode walk.reel smooth.####.obj --fps 60 --frames 100:149\n");
+                   "  meshreel decode walk.reel smooth.####.obj --fps 60 --frames 100:149\n"
+                   "  meshreel decode walk.reel far_away.glb --level 2\n");
     }
 
     Result<Report> run(Console& console) override

@@ -27,7 +27,8 @@ Result<Animation> load_reel(const Source& source, Console& console)
     options.progress = console.progress();
     options.frames = source.frames;
     if (source.fps > 0.0) options.fps = source.fps;
-    const bool some = source.frames.first > 0 || source.frames.last != io::FrameRange{}.last;
+    options.level = source.level;
+    const bool some = source.level > 0 || source.frames.first > 0 || source.frames.last != io::FrameRange{}.last;
     if (some && !source.verify_all && is_regular_file(source.path)) {
         MESHREEL_TRY(FileSource file, FileSource::open(source.path));
         return in_file(decode(file, options), source.path);

@@ -9,7 +9,7 @@
 
 namespace meshreel::cli {
 
-/// Decodes the frames asked for of a .reel file; of a regular file only what they need is read, unless it is to be
+/// Decodes the frames and the level asked for of a .reel file; of a regular file only what they need is read, unless it is to be
 /// verified. @fails usage: no such frame; io, bad_input, unsupported; naming the file.
 Result<Animation> load_reel(const Source& source, Console& console);
 

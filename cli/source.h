@@ -23,6 +23,7 @@ struct Source {
     std::string clip;
     double fps = 0.0; ///< 0: the file's
     io::FrameRange frames;
+    std::uint32_t level = 0; ///< of detail, of a .reel file
     bool verify_all = false; ///< of a .reel file, also the parts that the frames do not need
     DecodeLimits limits;
     Threads threads;

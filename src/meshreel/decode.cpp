@@ -5,6 +5,7 @@
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/explain.h"
 #include "meshreel/container/package.h"
+#include "meshreel/level.h"
 #include "meshreel/meshreel.h"
 #include "meshreel/shown_frames.h"
 
@@ -32,6 +33,29 @@ struct Opening {
     container::SegmentSource& segments;
 };
 
+/// How much of a payload a level needs. Levels are the first segment's: of others it may need everything.
+Result<std::uint64_t> bytes_of_level(const codecs::Codec& codec, const container::Segment& beginning,
+                                     const DecodeOptions& options)
+{
+    MESHREEL_TRY(const std::vector<std::uint64_t> bytes,
+                 codec.level_bytes({beginning.payload, beginning.payload_offset, "SEGM"}, options.limits));
+    return bytes[beginning.first_frame == 0 ? std::min<std::size_t>(options.level, bytes.size() - 1) : 0];
+}
+
+/// The file's level that the options ask for.
+Result<Level> level_asked_for(const Opening& reel, const codecs::Codec& codec, const connectivity::Topology& topology,
+                              const DecodeOptions& options)
+{
+    MESHREEL_TRY(const container::Segment first, reel.segments.holding(0));
+    return level_of(codec,
+                    {{first.payload, first.payload_offset, "SEGM"},
+                     topology.surface,
+                     first.frame_count,
+                     options.limits,
+                     options.threads},
+                    topology, options.level);
+}
+
 Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
 {
     const auto& [file, header, segments] = reel;
@@ -45,9 +69,15 @@ Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
     MESHREEL_TRY(ShownFrames shown, shown_frames(times, animation.meta, options, most));
     MESHREEL_CHECK(within(options.limits, vertices, header.triangle_count, shown.mixes.size()));
     MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
+    MESHREEL_CHECK(check_level(*codec, options.level));
     MESHREEL_TRY(connectivity::Topology topology, codecs::read_topology(file, header, options.base));
-    MESHREEL_TRY(const Matrix<float> frames, pose_frames({*codec, segments, topology.surface, options}, shown));
-    animation.positions = spread(frames, topology.surface_of);
+    std::optional<Level> level;
+    if (options.level > 0) {
+        MESHREEL_TRY(level, level_asked_for(reel, *codec, topology, options));
+    }
+    MESHREEL_TRY(Matrix<float> frames,
+                 pose_frames({*codec, segments, topology.surface, options, level ? &level->wanted : nullptr}, shown));
+    animation.positions = level ? std::move(frames.values) : spread(frames, topology.surface_of);
     animation.triangles = std::move(topology.triangles);
     animation.times_s = std::move(shown.times_s);
     animation.meta.fps = shown.fps;
@@ -55,6 +85,11 @@ Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
                              std::min(options.limits.max_memory, animation.positions.size() * 4));
     MESHREEL_TRY(animation.appearance,
                  container::read_appearance(file, {animation.vertex_count, animation.triangles}, budget));
+    if (level) {
+        animation.vertex_count = static_cast<std::uint32_t>(level->wanted.size());
+        animation.triangles = std::move(level->triangles);
+        animation.appearance = appearance_of(*level, animation.appearance);
+    }
     MESHREEL_CHECK(validate(animation));
     return animation;
 }
@@ -93,6 +128,13 @@ Result<Animation> decode(ByteSource& reel, const DecodeOptions& options)
     MESHREEL_TRY(const StreamReader head, StreamReader::open_head(reel, options.limits));
     MESHREEL_TRY(const Header header, container::read_header(head));
     container::SegmentFetcher segments(reel, head, header);
+    if (options.level > 0) {
+        MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
+        MESHREEL_CHECK(check_level(*codec, options.level));
+        segments.fetch_only([codec, &options](const container::Segment& beginning) {
+            return bytes_of_level(*codec, beginning, options);
+        });
+    }
     return unpacked({head, header, segments}, options);
 }
 

@@ -71,6 +71,9 @@ struct DecodeOptions {
     /// Show the time from the first to the last of them (of a loop: up to its next turn) at so many frames a second,
     /// > 0: between stored frames motion is interpolated, cubic in time and exactly through them. None: as stored.
     std::optional<double> fps = {};
+    /// Level of detail: 0 is everything, each further one has about a quarter of the vertices, and triangles of its own
+    /// (see docs/format.md). Of a file read in parts only the beginning of a segment is read.
+    std::uint32_t level = 0;
     DecodeLimits limits = {};
     Threads threads = {};
     Progress progress = {};

@@ -39,7 +39,8 @@ bool within_segment(const FrameMix& mix, const Segment& segment)
 class Poser {
 public:
     Poser(const CodedFrames& coded, const ShownFrames& shown)
-        : coded_(coded), shown_(shown), frames_(shown.mixes.size(), 3ul * coded.surface.vertex_count),
+        : coded_(coded), shown_(shown),
+          frames_(shown.mixes.size(), 3ul * (coded.wanted ? coded.wanted->size() : coded.surface.vertex_count)),
           sums_(shown.mixes.size())
     {
     }
@@ -65,11 +66,13 @@ private:
 
     codecs::Coded payload_of(const Segment& segment) const
     {
-        return {{segment.payload, segment.payload_offset, "SEGM"},
-                coded_.surface,
-                segment.frame_count,
-                coded_.options.limits,
-                coded_.options.threads};
+        codecs::Coded payload{{segment.payload, segment.payload_offset, "SEGM"},
+                              coded_.surface,
+                              segment.frame_count,
+                              coded_.options.limits,
+                              coded_.options.threads};
+        if (coded_.wanted != nullptr) payload.wanted = *coded_.wanted;
+        return payload;
     }
 
     Status copy(const Segment& segment)

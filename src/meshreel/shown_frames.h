@@ -30,9 +30,10 @@ struct CodedFrames {
     container::SegmentSource& segments;
     const connectivity::Surface& surface;
     const DecodeOptions& options;
+    const std::vector<std::uint32_t>* wanted = nullptr; ///< surface vertices, of a level of detail; null: all
 };
 
-/// Positions [N x 3W] of the frames shown. Only segments with a part in them are asked for, one after the other. Across
+/// Positions [N x 3W] of the frames shown; W: the vertices wanted, in that order. Only segments with a part in them are asked for, one after the other. Across
 /// the border of two segments each adds its parts, so that motion goes on smoothly there.
 /// @fails as the codec does.
 Result<Matrix<float>> pose_frames(const CodedFrames& coded, const ShownFrames& shown);

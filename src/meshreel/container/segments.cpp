@@ -30,22 +30,37 @@ SegmentFetcher::SegmentFetcher(ByteSource& file, const StreamReader& head, const
         if (entry.type == type::segm) entries_.push_back(entry);
 }
 
-/// The numbers of segment s, from its first bytes; its checksum waits until all of it is fetched.
-Result<Segment> SegmentFetcher::look(std::size_t s)
+namespace {
+
+constexpr std::uint64_t longest_segment_head = 4 + 10 + 5 + 5; // type, size, first_frame, frame_count
+constexpr std::uint64_t payload_head = 256;
+
+/// A segment from the first bytes of its chunk, its payload as far as they go.
+Result<Segment> beginning_of(const Index::Entry& entry, ByteView bytes, const DecodeLimits& limits)
 {
-    const auto known = looked_.find(s);
-    if (known != looked_.end()) return known->second;
-    constexpr std::uint64_t longest_head = 4 + 10 + 5 + 5; // type, size, first_frame, frame_count
-    const Index::Entry& entry = entries_[s];
-    const auto size = static_cast<std::size_t>(std::min(longest_head, chunk_size(entry.size)));
-    MESHREEL_TRY(const Bytes bytes, file_.fetch(entry.offset, size));
-    Reader reader({bytes, entry.offset, name_of(entry.type)}, head_.limits());
+    Reader reader({bytes, entry.offset, name_of(entry.type)}, limits);
     ChunkHead chunk;
     Segment segment;
     chunk.fields(reader);
     segment.fields(reader);
     if (reader.failed()) return *reader.error();
+    segment.payload_offset = entry.offset + static_cast<std::uint64_t>(segment.payload.data() - bytes.data());
+    return segment;
+}
+
+} // namespace
+
+/// The numbers of segment s, from its first bytes; its checksum waits until all of it is fetched.
+Result<Segment> SegmentFetcher::look(std::size_t s)
+{
+    const auto known = looked_.find(s);
+    if (known != looked_.end()) return known->second;
+    const Index::Entry& entry = entries_[s];
+    const auto size = static_cast<std::size_t>(std::min(longest_segment_head, chunk_size(entry.size)));
+    MESHREEL_TRY(const Bytes bytes, file_.fetch(entry.offset, size));
+    MESHREEL_TRY(Segment segment, beginning_of(entry, bytes, head_.limits()));
     segment.payload = {};
+    segment.payload_offset = 0;
     return looked_.emplace(s, segment).first->second;
 }
 
@@ -58,6 +73,27 @@ Result<Segment> SegmentFetcher::fetch(std::size_t s)
     return read_segment(chunk, head_.limits());
 }
 
+/// As much of a segment as is needed.
+Result<Segment> SegmentFetcher::fetch_beginning(std::size_t s)
+{
+    const Index::Entry& entry = entries_[s];
+    const std::uint64_t all = chunk_size(entry.size) - 4; // without the checksum
+    auto size = static_cast<std::size_t>(std::min(longest_segment_head + payload_head, all));
+    MESHREEL_TRY(bytes_, file_.fetch(entry.offset, size));
+    MESHREEL_TRY(const Segment head, beginning_of(entry, bytes_, head_.limits()));
+    MESHREEL_TRY(const std::uint64_t needed, needed_(head));
+    const std::uint64_t begin = head.payload_offset - entry.offset;
+    if (needed > all - begin) return fetch(s); // it will be found to end too early
+    size = static_cast<std::size_t>(begin + needed);
+    MESHREEL_CHECK(within(size, head_.limits().max_memory, "SEGM"));
+    if (size > bytes_.size()) {
+        MESHREEL_TRY(const Bytes more, file_.fetch(entry.offset + bytes_.size(), size - bytes_.size()));
+        bytes_.insert(bytes_.end(), more.begin(), more.end());
+    }
+    bytes_.resize(size);
+    return beginning_of(entry, bytes_, head_.limits());
+}
+
 Result<Segment> SegmentFetcher::holding(std::uint32_t frame)
 {
     std::size_t low = 0, high = entries_.size(); // the segment is in [low, high)
@@ -66,7 +102,7 @@ Result<Segment> SegmentFetcher::holding(std::uint32_t frame)
         MESHREEL_TRY(const Segment segment, look(middle));
         (segment.first_frame <= frame ? low : high) = middle;
     }
-    MESHREEL_TRY(const Segment segment, fetch(low));
+    MESHREEL_TRY(const Segment segment, needed_ ? fetch_beginning(low) : fetch(low));
     const bool there = segment.first_frame <= frame && frame - segment.first_frame < segment.frame_count &&
                        segment.frame_count <= frame_count_ - segment.first_frame;
     if (there) return segment;

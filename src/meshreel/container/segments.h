@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -36,9 +37,15 @@ public:
     SegmentFetcher(ByteSource& file, const StreamReader& head, const Header& header);
     Result<Segment> holding(std::uint32_t frame) override;
 
+    /// How many first bytes of a segment's payload are needed, from the first 256 of them, or all.
+    using Needed = std::function<Result<std::uint64_t>(const Segment& beginning)>;
+    /// From now on fetches no more of a segment than that. What is cut off is not verified by a checksum.
+    void fetch_only(Needed needed) { needed_ = std::move(needed); }
+
 private:
     Result<Segment> look(std::size_t s);
     Result<Segment> fetch(std::size_t s);
+    Result<Segment> fetch_beginning(std::size_t s);
 
     ByteSource& file_;
     const StreamReader& head_;
@@ -46,6 +53,7 @@ private:
     std::vector<Index::Entry> entries_;     ///< the SEGM of the index
     std::map<std::size_t, Segment> looked_; ///< what was found out: numbers of frames, no payload
     Bytes bytes_;                           ///< of the segment fetched last
+    Needed needed_;                         ///< empty: all of it
 };
 
 } // namespace meshreel::container

@@ -1,0 +1,32 @@
+/// A level of detail of a file: which vertices it keeps, and the triangles between them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "meshreel/codecs/codec.h"
+#include "meshreel/connectivity/topology.h"
+#include "meshreel/mesh/animation.h"
+
+namespace meshreel {
+
+/// V' vertices and T' triangles, as they are decoded.
+struct Level {
+    std::vector<std::uint32_t> wanted;      ///< [V'] the surface vertex of each
+    std::vector<std::uint32_t> vertex_of;   ///< [V'] its number at level 0, rising
+    std::vector<Triangle> triangles;        ///< [T'] over 0 .. V'-1
+    std::vector<std::uint32_t> triangle_of; ///< [T'] the triangle of level 0 that each came from, rising
+};
+
+/// Refuses a level of a codec that has none. @fails usage.
+Status check_level(const codecs::Codec& codec, std::uint32_t level);
+
+/// A level of a file whose first segment this is. @fails usage: no such level; as the codec does.
+Result<Level> level_of(const codecs::Codec& codec, const codecs::Coded& first_segment,
+                       const connectivity::Topology& topology, std::uint32_t level);
+
+/// What is left of an appearance: values of vertices and triangles stay with those that they belong to; those of corners
+/// go, as the corners of coarser triangles are at other vertices.
+Appearance appearance_of(const Level& level, const Appearance& appearance);
+
+} // namespace meshreel
