@@ -1,0 +1,58 @@
+/// What a distance to a surface promises.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "meshreel/mesh/test_shapes.h"
+#include "meshreel/metrics/surface_distance.h"
+
+using namespace meshreel;
+using metrics::squared_distance_to_triangle;
+using metrics::SurfaceDistance;
+
+namespace {
+
+constexpr std::array<SurfaceDistance::Point, 3> flat{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+
+} // namespace
+
+TEST(SurfaceDistance, IsThatToTheFaceTheEdgeOrTheCornerWhicheverIsNearest)
+{
+    EXPECT_DOUBLE_EQ(squared_distance_to_triangle({1, 1, 3}, flat), 9);
+    EXPECT_DOUBLE_EQ(squared_distance_to_triangle({1, -2, 0}, flat), 4);
+    EXPECT_DOUBLE_EQ(squared_distance_to_triangle({-3, -4, 0}, flat), 25);
+    EXPECT_DOUBLE_EQ(squared_distance_to_triangle({4, 4, 0}, flat), 8);
+    EXPECT_DOUBLE_EQ(squared_distance_to_triangle({1, 1, 0}, flat), 0);
+}
+
+TEST(SurfaceDistance, TakesDegenerateTrianglesForTheSegmentOrPointThatTheyAre)
+{
+    EXPECT_DOUBLE_EQ(squared_distance_to_triangle({1, 2, 0}, {{{0, 0, 0}, {4, 0, 0}, {2, 0, 0}}}), 4);
+    EXPECT_DOUBLE_EQ(squared_distance_to_triangle({1, 2, 2}, {{{1, 0, 2}, {1, 0, 2}, {1, 0, 2}}}), 4);
+}
+
+TEST(SurfaceDistance, FindsTheNearestOfAllTriangles)
+{
+    const Animation torus = test_shapes::torus();
+    const SurfaceDistance distance(torus.triangles, torus.frame(0));
+    std::mt19937 random(3);
+    for (int i = 0; i < 200; ++i) {
+        SurfaceDistance::Point p;
+        for (double& x : p) x = static_cast<double>(random() % 4000) / 1000 - 2;
+        double least = HUGE_VAL;
+        for (const Triangle& t : torus.triangles) {
+            std::array<SurfaceDistance::Point, 3> corners;
+            for (std::size_t j = 0; j < 3; ++j)
+                for (std::size_t c = 0; c < 3; ++c) corners[j][c] = torus.frame(0)[3ul * t[j] + c];
+            least = std::min(least, squared_distance_to_triangle(p, corners));
+        }
+        EXPECT_DOUBLE_EQ(distance.squared(p), least);
+    }
+}
+
+TEST(SurfaceDistance, ToNothingIsInfinite)
+{
+    EXPECT_EQ(SurfaceDistance({}, {}).squared({0, 0, 0}), HUGE_VAL);
+}
