@@ -1,9 +1,12 @@
 /// info: a quick look at a file; the positions of a .reel file are not decoded.
 // SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/figures.h"
+#include "cli/reel_file.h"
 #include "cli/source.h"
 #include "cli/verb.h"
 #include "meshreel/base/file.h"
@@ -42,7 +45,39 @@ Json reel_json(const Source& source, const Info& what, std::size_t file_bytes)
     figures["chunks"] = Json::array();
     for (const Info::Chunk& chunk : what.chunks)
         figures["chunks"].push_back({{"type", chunk.type}, {"offset", chunk.offset}, {"size", chunk.size}});
+    for (std::size_t n = 0; n < what.level_bytes.size(); ++n)
+        figures["levels"].push_back({{"level", n}, {"bytes", what.level_bytes[n]}});
     return figures;
+}
+
+/// Null where a level has no surface left.
+Json percent_json(double percent)
+{
+    return std::isfinite(percent) ? Json(percent) : Json(nullptr);
+}
+
+void add_levels(Json& figures, const std::vector<LevelInfo>& levels)
+{
+    for (std::size_t n = 0; n < levels.size(); ++n) {
+        Json& level = figures["levels"][n];
+        level["vertices"] = levels[n].vertices;
+        level["triangles"] = levels[n].triangles;
+        level["rms_error_relative"] = percent_json(levels[n].rms_error);
+        level["max_error_relative"] = percent_json(levels[n].max_error);
+    }
+}
+
+std::string levels_text(const std::vector<LevelInfo>& levels)
+{
+    std::string text = "  level  vertices  triangles  bytes of the file       rms error  largest, % of the diagonal\n";
+    for (std::size_t n = 0; n < levels.size(); ++n) {
+        const LevelInfo& level = levels[n];
+        text += fmt::format("  {:>5} {:>9} {:>10} {:>10}  {:>6.2f} % {:>12.3f} {:>8.3f}\n", n, level.vertices,
+                            level.triangles, level.bytes,
+                            100 * static_cast<double>(level.bytes) / static_cast<double>(levels.front().bytes),
+                            level.rms_error, level.max_error);
+    }
+    return text;
 }
 
 std::string reel_text(const Source& source, const Info& what, std::size_t file_bytes)
@@ -60,6 +95,9 @@ std::string reel_text(const Source& source, const Info& what, std::size_t file_b
     if (!what.groups.empty()) text += fmt::format("  groups      {}\n", fmt::join(what.groups, ", "));
     if (!what.assets.empty()) text += fmt::format("  assets      {}\n", fmt::join(what.assets, ", "));
     text += fmt::format("  size        {}\n", human_bytes(static_cast<double>(file_bytes)));
+    if (what.level_bytes.size() > 1)
+        text += fmt::format("  levels      {}, the coarsest in {}; see --levels\n", what.level_bytes.size(),
+                            human_bytes(static_cast<double>(what.level_bytes.back())));
     for (const Info::Chunk& chunk : what.chunks)
         text += fmt::format("  chunk       {:<6} at {:>10}, {} bytes\n", chunk.type, chunk.offset, chunk.size);
     return text;
@@ -71,16 +109,18 @@ public:
     {
         app.add_option("FILE", source_.path, "a file, a sequence such as walk.####.obj, or -")->required();
         declare_format(app, "--format", source_.format, "the file's format, where its name does not say it");
+        app.add_flag("--levels", levels_, "measure the levels of detail of a .reel file, which decodes them");
         source_.declare(app);
         app.footer("Examples:\n"
                    "  meshreel info walk.reel\n"
+                   "  meshreel info walk.reel --levels\n"
                    "  meshreel info walk.glb --json\n"
                    "  meshreel info motion.pc2 --mesh mesh.obj\n");
     }
 
     Result<Report> run(Console& console) override
     {
-        if (source_.is_reel()) return look_at_reel();
+        if (source_.is_reel()) return look_at_reel(console);
         MESHREEL_TRY(const Animation animation, load(source_, console));
         Json figures{{"schema", "meshreel.info/1"}, {"file", source_.path}, {"format", source_.format_name()}};
         add_counts(figures, animation);
@@ -92,14 +132,25 @@ public:
     }
 
 private:
-    Result<Report> look_at_reel() const
+    Result<Report> look_at_reel(Console& console) const
     {
         MESHREEL_TRY(const Bytes bytes, read_file(source_.path, source_.limits));
         MESHREEL_TRY(const Info what, in_file(info(bytes, source_.limits), source_.path));
-        return Report{reel_json(source_, what, bytes.size()), reel_text(source_, what, bytes.size()), true};
+        Report report{reel_json(source_, what, bytes.size()), reel_text(source_, what, bytes.size()), true};
+        if (!levels_) return report;
+        MESHREEL_TRY(const Animation base, load_base(source_, console));
+        const DecodeOptions options{.base = source_.base.empty() ? nullptr : &base,
+                                    .limits = source_.limits,
+                                    .threads = source_.threads,
+                                    .progress = console.progress()};
+        MESHREEL_TRY(const std::vector<LevelInfo> all, in_file(levels(bytes, options), source_.path));
+        add_levels(report.figures, all);
+        report.text += levels_text(all);
+        return report;
     }
 
     Source source_;
+    bool levels_ = false;
 };
 
 } // namespace

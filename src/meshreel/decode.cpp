@@ -160,6 +160,9 @@ Result<Info> info(ByteView reel, const DecodeLimits& limits)
     MESHREEL_CHECK(read_names(file, info));
     for (const container::Chunk& chunk : file.chunks())
         info.chunks.push_back({container::name_of(chunk.type), chunk.begin, chunk.end() - chunk.begin});
+    if (const codecs::Codec* codec = codecs::find(header.codec)) {
+        MESHREEL_TRY(info.level_bytes, level_bytes(file, header, *codec));
+    }
     return info;
 }
 

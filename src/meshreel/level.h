@@ -6,6 +6,7 @@
 
 #include "meshreel/codecs/codec.h"
 #include "meshreel/connectivity/topology.h"
+#include "meshreel/container/package.h"
 #include "meshreel/mesh/animation.h"
 
 namespace meshreel {
@@ -24,6 +25,11 @@ Status check_level(const codecs::Codec& codec, std::uint32_t level);
 /// A level of a file whose first segment this is. @fails usage: no such level; as the codec does.
 Result<Level> level_of(const codecs::Codec& codec, const codecs::Coded& first_segment,
                        const connectivity::Topology& topology, std::uint32_t level);
+
+/// Bytes of a file that each of its levels takes, finest first: of each segment the beginning that the level needs, and
+/// everything besides. One entry for a codec without levels. @fails as the codec does.
+Result<std::vector<std::uint64_t>> level_bytes(const container::StreamReader& file, const container::Header& header,
+                                               const codecs::Codec& codec);
 
 /// What is left of an appearance: values of vertices and triangles stay with those that they belong to; those of corners
 /// go, as the corners of coarser triangles are at other vertices.

@@ -108,8 +108,20 @@ struct Info {
         std::uint64_t offset = 0, size = 0;
     };
     std::vector<Chunk> chunks;
+    std::vector<std::uint64_t> level_bytes; ///< of the file that each level of detail takes, as LevelInfo::bytes
 };
 Result<Info> info(ByteView reel, const DecodeLimits& limits = {});
+
+/// A level of detail of a file. Errors: how far the vertices of level 0 are from the nearest points of this level's
+/// triangles in the same frame, over all vertices of up to 16 frames spread evenly over the file; percent of the first
+/// frame's body diagonal; infinite where no triangle is left.
+struct LevelInfo {
+    std::uint64_t vertices = 0, triangles = 0;
+    std::uint64_t bytes = 0; ///< of the file that the level takes: less than all of it from level 1 on
+    double rms_error = 0.0, max_error = 0.0;
+};
+/// All levels, finest first; decodes each. Of the options frames, fps and level are ignored. @fails as decode().
+Result<std::vector<LevelInfo>> levels(ByteView reel, const DecodeOptions& options = {});
 
 /// Every field of a .reel file with its byte offset, size, value and meaning, a line each.
 Result<std::string> explain(ByteView reel, const DecodeLimits& limits = {});

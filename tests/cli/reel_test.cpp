@@ -128,6 +128,28 @@ TEST_F(Reel, DecodeShowsAnyRate)
     EXPECT_THAT(run("decode a.reel other.pc2 --fps 50 --frames ::2").err, HasSubstr("steps"));
 }
 
+TEST_F(Reel, DecodeGivesCoarserLevelsThatInfoMeasures)
+{
+    good("generate jelly jelly.pc2 --mesh-out jelly.obj --vertices 1000 --frames 8");
+    good("encode jelly.pc2 --mesh jelly.obj a.reel --step 0.001");
+    const auto levels = good("info a.reel --levels --json").json()["levels"];
+    ASSERT_EQ(levels.size(), 3u);
+    EXPECT_EQ(good("info a.reel --json").json()["levels"][1]["bytes"], levels[1]["bytes"]);
+    const auto coarse = good("decode a.reel b.pc2 --level 1 --json").json();
+    EXPECT_EQ(coarse["vertices"], levels[1]["vertices"]);
+    EXPECT_EQ(coarse["triangles"], levels[1]["triangles"]);
+    EXPECT_GT(levels[2]["rms_error_relative"], levels[1]["rms_error_relative"]);
+    EXPECT_THAT(good("info a.reel --levels").out, HasSubstr("rms error"));
+}
+
+TEST_F(Reel, ALevelThatIsNotThereIsNamed)
+{
+    make_reel();
+    EXPECT_THAT(run("decode a.reel b.pc2 --level 7").err, HasSubstr("there is no level 7; the coarsest is"));
+    make_reel("-y --codec coddyac");
+    EXPECT_THAT(run("decode a.reel b.pc2 --level 1").err, HasSubstr("the codec coddyac has no levels of detail"));
+}
+
 TEST_F(Reel, LongAnimationsAreCutWhereOneSays)
 {
     const auto segments = [this] {
