@@ -37,7 +37,7 @@ struct Leveled {
     Bytes payload;
 };
 
-const Leveled& jelly()
+const Leveled& leveled_jelly()
 {
     static const Leveled one(*shapes::generate(*shapes::find("jelly"), {.vertices = 2500, .frames = 12}));
     return one;
@@ -56,43 +56,43 @@ std::size_t place_of(const Leveled& reel, const std::string& field)
 
 TEST(Detail, OfAPayloadCutAtALevelsEndIsTheSameToTheBit)
 {
-    const codecs::Detail detail = jelly().detail();
-    const std::vector<std::uint64_t> ends = jelly().ends();
+    const codecs::Detail detail = leveled_jelly().detail();
+    const std::vector<std::uint64_t> ends = leveled_jelly().ends();
     ASSERT_EQ(ends.size(), detail.counts.size());
-    ASSERT_EQ(ends.front(), jelly().payload.size());
+    ASSERT_EQ(ends.front(), leveled_jelly().payload.size());
     ASSERT_GE(ends.size(), 3u);
     for (std::size_t n = 0; n < ends.size(); ++n) {
         const auto kept = detail.kept(n);
-        const auto part = jelly().opened(ByteView(jelly().payload).first(ends[n]), kept);
+        const auto part = leveled_jelly().opened(ByteView(leveled_jelly().payload).first(ends[n]), kept);
         ASSERT_TRUE(part.ok()) << part.error().sentence();
-        EXPECT_EQ(part->C.values, jelly().opened(jelly().payload, kept)->C.values);
+        EXPECT_EQ(part->C.values, leveled_jelly().opened(leveled_jelly().payload, kept)->C.values);
     }
 }
 
 TEST(Detail, OfAPayloadCutBeforeALevelsEndIsRefused)
 {
-    const codecs::Detail detail = jelly().detail();
-    const std::vector<std::uint64_t> ends = jelly().ends();
+    const codecs::Detail detail = leveled_jelly().detail();
+    const std::vector<std::uint64_t> ends = leveled_jelly().ends();
     for (std::size_t n = 0; n < ends.size(); ++n) {
-        const auto part = jelly().opened(ByteView(jelly().payload).first(ends[n] - 1), detail.kept(n));
+        const auto part = leveled_jelly().opened(ByteView(leveled_jelly().payload).first(ends[n] - 1), detail.kept(n));
         ASSERT_FALSE(part.ok());
         EXPECT_EQ(part.error().field, "SEGM.level_bits");
-        EXPECT_FALSE(jelly().opened(ByteView(jelly().payload).first(ends[n] - 1), detail.kept(0)).ok());
+        EXPECT_FALSE(leveled_jelly().opened(ByteView(leveled_jelly().payload).first(ends[n] - 1), detail.kept(0)).ok());
     }
 }
 
 TEST(Detail, KnowsWhereLevelsEndFromAPayloadsFirstBytes)
 {
-    const ByteView beginning = ByteView(jelly().payload).first(256);
-    EXPECT_EQ(*jelly().codec.level_bytes({beginning, 0, "SEGM"}, {}), jelly().ends());
+    const ByteView beginning = ByteView(leveled_jelly().payload).first(256);
+    EXPECT_EQ(*leveled_jelly().codec.level_bytes({beginning, 0, "SEGM"}, {}), leveled_jelly().ends());
 }
 
 TEST(Detail, ThatEndsElsewhereThanItSaysIsRefused)
 {
-    Bytes moved = jelly().payload; // one byte from one level to the next: the low bytes of two varints
-    ++moved[place_of(jelly(), "SEGM.levels[0].bytes")];
-    --moved[place_of(jelly(), "SEGM.levels[1].bytes")];
-    const auto whole = codecs::open(jelly().codec, jelly().coded(moved));
+    Bytes moved = leveled_jelly().payload; // one byte from one level to the next: the low bytes of two varints
+    ++moved[place_of(leveled_jelly(), "SEGM.levels[0].bytes")];
+    --moved[place_of(leveled_jelly(), "SEGM.levels[1].bytes")];
+    const auto whole = codecs::open(leveled_jelly().codec, leveled_jelly().coded(moved));
     ASSERT_FALSE(whole.ok());
     EXPECT_EQ(whole.error().sentence(), "byte 0: SEGM.levels: a level of detail ends at another byte than said");
 }
