@@ -38,20 +38,40 @@ FrameSums frame_sums(std::span<const T> original, std::span<const T> distorted)
 template <class T>
 double measured_kg(const Pair<T>& pair, Threads threads)
 {
-    std::vector<FrameSums> frames(pair.frame_count());
-    parallel_for(frames.size(), threads,
-                 [&](std::size_t f) { frames[f] = frame_sums(pair.original.row(f), pair.distorted.row(f)); });
-    FrameSums all;
-    for (const FrameSums& frame : frames) {
-        all.error += frame.error;
-        all.spread += frame.spread;
-    }
-    if (all.error == 0.0) return 0.0;
-    if (all.spread == 0.0) return std::numeric_limits<double>::infinity();
-    return 100.0 * std::sqrt(all.error) / std::sqrt(all.spread); // (5.2)
+    RunningKg running(threads);
+    running.add(pair);
+    return running.value();
 }
 
 } // namespace
+
+template <class T>
+void RunningKg::add_frames(const Pair<T>& pair)
+{
+    std::vector<FrameSums> frames(pair.frame_count());
+    parallel_for(frames.size(), threads_,
+                 [&](std::size_t f) { frames[f] = frame_sums(pair.original.row(f), pair.distorted.row(f)); });
+    for (const FrameSums& frame : frames) {
+        error_ += frame.error;
+        spread_ += frame.spread;
+    }
+}
+
+void RunningKg::add(const Pair<float>& frames)
+{
+    add_frames(frames);
+}
+void RunningKg::add(const Pair<double>& frames)
+{
+    add_frames(frames);
+}
+
+double RunningKg::value() const
+{
+    if (error_ == 0.0) return 0.0;
+    if (spread_ == 0.0) return std::numeric_limits<double>::infinity();
+    return 100.0 * std::sqrt(error_) / std::sqrt(spread_); // (5.2)
+}
 
 double kg_error(const Pair<float>& pair, Threads threads)
 {

@@ -13,6 +13,23 @@ namespace meshreel::metrics {
 double kg_error(const Pair<float>& pair, Threads threads = {});
 double kg_error(const Pair<double>& pair, Threads threads = {});
 
+/// The same from runs of frames, one after the other: bit for bit that of all frames at once, however they are cut.
+class RunningKg {
+public:
+    explicit RunningKg(Threads threads = {}) : threads_(threads) {}
+    void add(const Pair<float>& frames);
+    void add(const Pair<double>& frames);
+    double value() const;
+
+private:
+    template <class T>
+    void add_frames(const Pair<T>& frames);
+
+    Threads threads_;
+    double error_ = 0.0;  ///< |A - A'|^2
+    double spread_ = 0.0; ///< |A - E(A)|^2
+};
+
 /// Of two animations with the same V and F.
 inline double kg_error(const Animation& original, const Animation& distorted, Threads threads = {})
 {

@@ -82,85 +82,230 @@ Lanes deviations(const std::vector<Stretch>& all, std::span<const std::uint32_t>
     return square;
 }
 
-template <class T>
-double measured_spatial(const Pair<T>& pair, const StedOptions& options)
-{
-    const auto vertex_count = static_cast<std::uint32_t>(pair.vertex_count());
-    const std::size_t frames = pair.frame_count();
-    NearEdges near(vertex_count, pair.triangles, options.distance);
-    std::vector<double> parts((frames + lanes - 1) / lanes, 0.0);
-    for (NearEdges::Run run = near.run_from(0); run.size() > 0; run = near.run_from(run.begin + run.size()))
-        parallel_for(parts.size(), options.threads, [&](std::size_t block) {
-            const std::vector<Stretch> all = stretches(pair, near, block * lanes, options.absolute_difference);
-            const std::size_t used = std::min(lanes, frames - block * lanes);
+/// The spatial part, frame by frame.
+class Spatial {
+public:
+    Spatial(std::uint32_t vertex_count, std::span<const Triangle> triangles, const StedOptions& options)
+        : vertex_count_(vertex_count), options_(options), near_(vertex_count, triangles, options.distance),
+          first_run_(near_.run_from(0))
+    {
+    }
+
+    template <class T>
+    void add(const Pair<T>& pair)
+    {
+        std::vector<double> parts(pair.frame_count(), 0.0);
+        add_run(pair, first_run_, parts);
+        for (std::uint32_t v = first_run_.size(); v < vertex_count_;) {
+            const NearEdges::Run run = near_.run_from(v);
+            add_run(pair, run, parts);
+            v += run.size();
+        }
+        for (double part : parts) sum_ += part;
+        frames_ += parts.size();
+    }
+
+    double value() const { return sum_ / (static_cast<double>(vertex_count_) * static_cast<double>(frames_)); } // (7.8)
+
+private:
+    template <class T>
+    void add_run(const Pair<T>& pair, const NearEdges::Run& run, std::vector<double>& parts) const
+    {
+        parallel_for((parts.size() + lanes - 1) / lanes, options_.threads, [&](std::size_t block) {
+            const std::vector<Stretch> all = stretches(pair, near_, block * lanes, options_.absolute_difference);
+            const std::size_t first = block * lanes, used = std::min(lanes, parts.size() - first);
             for (std::size_t i = 0; i < run.size(); ++i) {
                 const Lanes deviation =
                     deviations(all, {run.edges.data() + run.first[i], run.first[i + 1] - run.first[i]});
-                for (std::size_t lane = 0; lane < used; ++lane) parts[block] += deviation[lane];
+                for (std::size_t lane = 0; lane < used; ++lane) parts[first + lane] += deviation[lane];
             }
         });
-    return sum_of(parts) / (static_cast<double>(vertex_count) * static_cast<double>(frames)); // (7.8)
-}
-
-/// Temporal edge lengths (7.10) of vertices first .. last-1: row i holds those of frames 1 .. F-1, after an unused place.
-template <class T>
-Matrix<double> speeds(MatrixView<const T> motion, std::size_t first, std::size_t last, const auto& length_of)
-{
-    Matrix<double> result(last - first, motion.rows);
-    for (std::size_t f = 1; f < motion.rows; ++f) {
-        const std::span<const T> now = motion.row(f), before = motion.row(f - 1);
-        for (std::size_t v = first; v < last; ++v) {
-            double square = 0;
-            for (std::size_t i = 3 * v; i < 3 * v + 3; ++i)
-                square += (double{now[i]} - before[i]) * (double{now[i]} - before[i]);
-            result(v - first, f) = length_of(square);
-        }
     }
-    return result;
-}
+
+    std::uint32_t vertex_count_;
+    StedOptions options_;
+    NearEdges near_;
+    NearEdges::Run first_run_; ///< mostly the only one
+    double sum_ = 0.0;
+    std::size_t frames_ = 0;
+};
 
 /// The mean over the temporal edges that lie in the window of frames f - w .. f + w with both their ends (7.11).
-/// speed[i] is the edge from frame i - 1 to frame i; the one from f - w - 1 is outside.
-double window_mean(std::span<const double> speed, std::size_t f, std::size_t window)
+/// Edge e goes from frame e - 1 to frame e; the one from f - w - 1 is outside. speed[i] is that of edge i + begin.
+double window_mean(std::span<const double> speed, std::size_t begin, std::size_t f, std::size_t window)
 {
     // DEVIATES (7.11): divides by the number of edges summed, and sums the same on both sides of f, as the authors do.
-    const std::size_t first = f >= window ? f - window + 1 : 1, last = std::min(speed.size(), f + window + 1);
+    const std::size_t first = f >= window ? f - window + 1 : 1, last = std::min(speed.size() + begin, f + window + 1);
     double sum = 0;
-    for (std::size_t i = first; i < last; ++i) sum += speed[i];
+    for (std::size_t i = first; i < last; ++i) sum += speed[i - begin];
     return sum / static_cast<double>(last - first);
+}
+
+/// Frames that follow others.
+template <class T>
+struct Motion {
+    MatrixView<const T> frames;
+    std::span<const double> before; ///< [3V] the frame before them; empty where there is none
+
+    /// Temporal edges that end in one of the frames.
+    std::size_t edge_count() const { return frames.rows - (before.empty() && frames.rows > 0 ? 1 : 0); }
+};
+
+/// The temporal part. An edge is counted once all edges of its window are known. Edges count from 1: edge e goes from
+/// frame e - 1 to frame e.
+class Temporal {
+public:
+    Temporal(std::size_t vertex_count, const StedOptions& options) : options_(options), sums_(vertex_count, 0.0) {}
+
+    template <class T>
+    void add(const Pair<T>& pair)
+    {
+        if (pair.frame_count() == 0) return;
+        if (before_original_.empty()) {
+            const double diameter = largest_distance(MatrixView<const T>{pair.original.data, sums_.size(), 3}); // (7.9)
+            unit_ = diameter > 0.0 ? diameter * diameter : 1.0;
+        }
+        count(Motion<T>{pair.original, before_original_}, Motion<T>{pair.distorted, before_distorted_},
+              options_.window);
+        const std::size_t last = pair.frame_count() - 1;
+        before_original_.assign(pair.original.row(last).begin(), pair.original.row(last).end());
+        before_distorted_.assign(pair.distorted.row(last).begin(), pair.distorted.row(last).end());
+    }
+
+    double finish()
+    {
+        count(Motion<double>{}, Motion<double>{}, 0);
+        if (known_ == 0) return 0.0;
+        return sum_of(sums_) / (static_cast<double>(sums_.size()) * static_cast<double>(known_)); // (7.13)
+    }
+
+private:
+    /// Takes in the edges of the frames, and counts all edges known then but the last `waiting`.
+    template <class T>
+    void count(const Motion<T>& original, const Motion<T>& distorted, std::size_t waiting)
+    {
+        known_ += original.edge_count();
+        const std::size_t ready = std::max(counted_, known_ - std::min(known_, waiting));
+        const std::size_t kept = std::min<std::size_t>(known_, 2ul * options_.window - 1);
+        Matrix<double> kept_original(sums_.size(), kept), kept_distorted(sums_.size(), kept);
+        parallel_for((sums_.size() + vertices_a_block - 1) / vertices_a_block, options_.threads,
+                     [&](std::size_t block) {
+                         const std::size_t first = block * vertices_a_block,
+                                           last = std::min(sums_.size(), first + vertices_a_block);
+                         const Matrix<double> speeds = extended(original_, original, first, last),
+                                              others = extended(distorted_, distorted, first, last);
+                         for (std::size_t v = first; v < last; ++v) {
+                             const std::span<const double> speed = speeds.row(v - first), other = others.row(v - first);
+                             count_edges(speed, other, ready, sums_[v]);
+                             std::ranges::copy(speed.last(kept), kept_original.row(v).begin());
+                             std::ranges::copy(other.last(kept), kept_distorted.row(v).begin());
+                         }
+                     });
+        original_ = std::move(kept_original);
+        distorted_ = std::move(kept_distorted);
+        counted_ = ready;
+    }
+
+    void count_edges(std::span<const double> speed, std::span<const double> other, std::size_t ready, double& sum) const
+    {
+        const std::size_t begin = known_ - speed.size() + 1; // the first edge at hand
+        for (std::size_t e = counted_ + 1; e <= ready; ++e)
+            sum +=
+                std::abs(speed[e - begin] - other[e - begin]) / window_mean(speed, begin, e, options_.window); // (7.12)
+    }
+
+    /// Temporal edge lengths (7.10) of vertices first .. last - 1, a row each: those kept, then those of the motion.
+    template <class T>
+    Matrix<double> extended(const Matrix<double>& kept, const Motion<T>& motion, std::size_t first,
+                            std::size_t last) const
+    {
+        const std::size_t more = motion.edge_count();
+        Matrix<double> result(last - first, kept.cols + more);
+        for (std::size_t v = first; v < last; ++v) std::ranges::copy(kept.row(v), result.row(v - first).begin());
+        for (std::size_t e = 0; e < more; ++e) {
+            const std::size_t f = motion.frames.rows - more + e;
+            for (std::size_t v = first; v < last; ++v)
+                result(v - first, kept.cols + e) = f == 0 ? length(motion.frames.row(0), motion.before, v)
+                                                          : length(motion.frames.row(f), motion.frames.row(f - 1), v);
+        }
+        return result;
+    }
+
+    template <class T, class Before>
+    double length(std::span<const T> now, std::span<const Before> before, std::size_t v) const
+    {
+        double square = 0;
+        for (std::size_t i = 3 * v; i < 3 * v + 3; ++i)
+            square += (double{now[i]} - before[i]) * (double{now[i]} - before[i]);
+        return std::sqrt(square / unit_ + options_.frame_distance * options_.frame_distance); // (7.10)
+    }
+
+    StedOptions options_;
+    double unit_ = 1.0;
+    std::vector<double> sums_;                               ///< [V]
+    std::size_t known_ = 0, counted_ = 0;                    ///< edges
+    Matrix<double> original_, distorted_;                    ///< lengths of the last edges, [V x 2w - 1] at most
+    std::vector<double> before_original_, before_distorted_; ///< the last frames, [3V]
+};
+
+template <class T>
+double measured_spatial(const Pair<T>& pair, const StedOptions& options)
+{
+    Spatial spatial(static_cast<std::uint32_t>(pair.vertex_count()), pair.triangles, options);
+    spatial.add(pair);
+    return spatial.value();
 }
 
 template <class T>
 double measured_temporal(const Pair<T>& pair, const StedOptions& options)
 {
-    const std::size_t frames = pair.frame_count(), vertices = pair.vertex_count();
-    if (frames < 2) return 0.0;
-    const double diameter = largest_distance(MatrixView<const T>{pair.original.data, vertices, 3}); // (7.9)
-    const double unit = diameter > 0.0 ? diameter * diameter : 1.0, fd = options.frame_distance;
-    const auto length_of = [=](double square) { return std::sqrt(square / unit + fd * fd); }; // (7.10)
-    std::vector<double> parts((vertices + vertices_a_block - 1) / vertices_a_block);
-    parallel_for(parts.size(), options.threads, [&](std::size_t block) {
-        const std::size_t first = block * vertices_a_block, last = std::min(vertices, first + vertices_a_block);
-        const Matrix<double> original = speeds(pair.original, first, last, length_of);
-        const Matrix<double> distorted = speeds(pair.distorted, first, last, length_of);
-        for (std::size_t v = 0; v < original.rows; ++v)
-            for (std::size_t f = 1; f < frames; ++f)
-                parts[block] += std::abs(original(v, f) - distorted(v, f)) /
-                                window_mean(original.row(v), f, options.window); // (7.12)
-    });
-    return sum_of(parts) / (static_cast<double>(vertices) * static_cast<double>(frames - 1)); // (7.13)
+    Temporal temporal(pair.vertex_count(), options);
+    temporal.add(pair);
+    return temporal.finish();
 }
 
 template <class T>
 Sted measured_sted(const Pair<T>& pair, const StedOptions& options)
 {
-    Sted parts{measured_spatial(pair, options), measured_temporal(pair, options), 0.0};
-    const double temporal = options.temporal_weight * parts.temporal;
-    parts.total = std::sqrt(parts.spatial * parts.spatial + temporal * temporal); // (7.14)
-    return parts;
+    RunningSted running(static_cast<std::uint32_t>(pair.vertex_count()), pair.triangles, options);
+    running.add(pair);
+    return running.finish();
 }
 
 } // namespace
+
+struct RunningSted::Parts {
+    Spatial spatial;
+    Temporal temporal;
+    double temporal_weight;
+};
+
+RunningSted::RunningSted(std::uint32_t vertex_count, std::span<const Triangle> triangles, const StedOptions& options)
+    : parts_(new Parts{Spatial(vertex_count, triangles, options), Temporal(vertex_count, options),
+                       options.temporal_weight})
+{
+}
+
+RunningSted::~RunningSted() = default;
+
+void RunningSted::add(const Pair<float>& frames)
+{
+    parts_->spatial.add(frames);
+    parts_->temporal.add(frames);
+}
+void RunningSted::add(const Pair<double>& frames)
+{
+    parts_->spatial.add(frames);
+    parts_->temporal.add(frames);
+}
+
+Sted RunningSted::finish()
+{
+    Sted parts{parts_->spatial.value(), parts_->temporal.finish(), 0.0};
+    const double temporal = parts_->temporal_weight * parts.temporal;
+    parts.total = std::sqrt(parts.spatial * parts.spatial + temporal * temporal); // (7.14)
+    return parts;
+}
 
 double sted_spatial(const Pair<float>& pair, const StedOptions& options)
 {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "meshreel/base/parallel.h"
 #include "meshreel/metrics/motion.h"
 
@@ -41,6 +43,23 @@ double sted_temporal(const Pair<double>& pair, const StedOptions& options = {});
 /// @source thesis 7.3, (7.4)-(7.14)
 Sted sted(const Pair<float>& pair, const StedOptions& options = {});
 Sted sted(const Pair<double>& pair, const StedOptions& options = {});
+
+/// Both parts from runs of frames, one after the other: bit for bit those of all frames at once, however they are cut. The
+/// speeds of the last frames are kept, as the window of the next ones looks back at them: 200 bytes a vertex.
+class RunningSted {
+public:
+    RunningSted(std::uint32_t vertex_count, std::span<const Triangle> triangles, const StedOptions& options = {});
+    ~RunningSted();
+    /// The next frames; the triangles are those given above.
+    void add(const Pair<float>& frames);
+    void add(const Pair<double>& frames);
+    /// Of all frames added. To be called once, at the end. @pre a frame was added
+    Sted finish();
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
 
 /// The total, with the default constants.
 double sted_error(const Animation& original, const Animation& distorted, Threads threads = {});

@@ -31,18 +31,28 @@ VertexError frame_error(std::span<const float> original, std::span<const float> 
 
 } // namespace
 
-VertexError vertex_error(const Pair<float>& pair, Threads threads)
+void RunningVertexError::add(const Pair<float>& pair)
 {
     std::vector<VertexError> frames(pair.frame_count());
-    parallel_for(frames.size(), threads,
+    parallel_for(frames.size(), threads_,
                  [&](std::size_t f) { frames[f] = frame_error(pair.original.row(f), pair.distorted.row(f)); });
-    VertexError all;
     for (const VertexError& frame : frames) {
-        all.mean_square += frame.mean_square;
-        all.largest_square = std::max(all.largest_square, frame.largest_square);
+        square_ += frame.mean_square;
+        largest_square_ = std::max(largest_square_, frame.largest_square);
     }
-    all.mean_square /= static_cast<double>(frames.size() * pair.vertex_count());
-    return all;
+    points_ += frames.size() * pair.vertex_count();
+}
+
+VertexError RunningVertexError::value() const
+{
+    return {square_ / static_cast<double>(points_), largest_square_};
+}
+
+VertexError vertex_error(const Pair<float>& pair, Threads threads)
+{
+    RunningVertexError running(threads);
+    running.add(pair);
+    return running.value();
 }
 
 VertexError vertex_error(const Animation& original, const Animation& distorted, Threads threads)

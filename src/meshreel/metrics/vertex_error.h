@@ -17,6 +17,19 @@ struct VertexError {
 VertexError vertex_error(const Pair<float>& pair, Threads threads = {});
 VertexError vertex_error(const Animation& original, const Animation& distorted, Threads threads = {});
 
+/// The same from runs of frames, one after the other: bit for bit that of all frames at once, however they are cut.
+class RunningVertexError {
+public:
+    explicit RunningVertexError(Threads threads = {}) : threads_(threads) {}
+    void add(const Pair<float>& frames);
+    VertexError value() const;
+
+private:
+    Threads threads_;
+    double square_ = 0.0, largest_square_ = 0.0;
+    std::size_t points_ = 0; ///< F V
+};
+
 /// Root of the mean squared distance, model units.
 double rms_error(const Animation& original, const Animation& distorted, Threads threads = {});
 
