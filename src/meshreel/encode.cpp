@@ -14,11 +14,10 @@
 #include "meshreel/mesh/reorder.h"
 #include "meshreel/mesh/weld.h"
 #include "meshreel/meshreel.h"
-#include "meshreel/metrics/kg.h"
-#include "meshreel/metrics/sted.h"
-#include "meshreel/metrics/vertex_error.h"
+#include "meshreel/prepared_segments.h"
 #include "meshreel/tune/meter.h"
 #include "meshreel/tune/search.h"
+#include "meshreel/verification.h"
 #include "meshreel/version.h"
 
 namespace meshreel {
@@ -35,48 +34,32 @@ Error usage(std::string message)
     return {ErrorCode::usage, std::move(message), {}, {}, {}};
 }
 
-struct FrameSpan {
-    std::size_t first, count;
-};
-
-/// As few segments as the longest allows, of nearly equal length.
-std::vector<FrameSpan> segments_of(std::size_t F, std::size_t longest)
-{
-    const std::size_t count = F / longest + (F % longest != 0);
-    std::vector<FrameSpan> segments;
-    for (std::size_t s = 0; s < count; ++s) segments.push_back({F * s / count, F * (s + 1) / count - F * s / count});
-    return segments;
-}
-
 /// An animation on its way into a file.
 class Encoding {
 public:
-    Encoding(const Animation& animation, const EncodeOptions& options, const codecs::Codec& codec)
-        : animation_(animation), options_(options), codec_(codec),
-          topology_(connectivity::encode(
-              {animation.vertex_count, animation.triangles, weld(animation, options.threads).unique_of},
-              options.order)),
-          segments_(segments_of(animation.frame_count(), options.segment == 0 ? usual_segment : options.segment))
+    /// Reads the frames twice and a first time segment by segment. @fails as the source does.
+    static Result<std::unique_ptr<Encoding>> begin(FrameSource& source, const EncodeOptions& options,
+                                                   const codecs::Codec& codec)
     {
-        const std::size_t W = surface().vertex_count;
-        frames_ = Matrix<float>(animation.frame_count(), 3 * W);
-        for (std::size_t f = 0; f < frames_.rows; ++f)
-            reorder_frame(animation.frame(f), topology_.original_of, frames_.row(f));
-        for (const FrameSpan& segment : segments_)
-            meters_.emplace_back(frames(segment), surface().triangles, options.threads);
-        prepare(usual_bases);
-        allowed_ = allowed_by(options.quality, animation, diagonal());
-        if (std::isfinite(allowed_.kg) && norm() == 0) // every frame a point: nothing that KG could be a percentage of
-            allowed_.max_error = std::exchange(allowed_.kg, no_limit) / 100 * diagonal();
-        plan_ = tune::plan_of(options.effort, tune());
+        const Animation& still = source.still();
+        MESHREEL_TRY(const Weld welded, weld(source, WeldOptions{options.threads}));
+        std::unique_ptr<Encoding> encoding(
+            new Encoding(source, options, codec,
+                         connectivity::encode({still.vertex_count, still.triangles, welded.unique_of}, options.order)));
+        MESHREEL_CHECK(encoding->look());
+        return encoding;
     }
 
     /// The smallest file found that keeps the quality asked for, or the best one of the size asked for.
     Result<Encoded> encode()
     {
-        if (codec_.exact()) return finished(exact());
+        if (codec_.exact()) {
+            MESHREEL_TRY(const tune::Attempt attempt, exact());
+            return finished(attempt);
+        }
         if (options_.quality.bases || options_.quality.step) {
-            MESHREEL_TRY(const tune::Attempt attempt, attempted(by_hand()));
+            MESHREEL_TRY(const codecs::Settings settings, by_hand());
+            MESHREEL_TRY(const tune::Attempt attempt, attempted(settings));
             return finished(attempt);
         }
         std::optional<Encoded> best;
@@ -99,32 +82,44 @@ public:
 private:
     const connectivity::Surface& surface() const { return topology_.topology.surface; }
 
-    MatrixView<const float> frames(FrameSpan span) const
+    Encoding(FrameSource& source, const EncodeOptions& options, const codecs::Codec& codec,
+             connectivity::Encoded topology)
+        : source_(source), options_(options), codec_(codec), topology_(std::move(topology)),
+          segments_({source, topology_, codec, options.threads},
+                    equal_segments(source.frame_count(), options.segment == 0 ? usual_segment : options.segment))
     {
-        return {frames_.values.data() + span.first * frames_.cols, span.count, frames_.cols};
     }
 
-    void prepare(std::size_t max_bases)
+    const Animation& still() const { return source_.still(); }
+    double points() const { return static_cast<double>(source_.frame_count()) * surface().vertex_count; }
+
+    /// What must be known of the motion before anything is tried.
+    Status look()
     {
-        encoders_.clear();
-        for (const FrameSpan& segment : segments_)
-            encoders_.push_back(codec_.prepare({surface(), frames(segment)}, max_bases, options_.threads));
-        max_bases_ = max_bases;
+        Matrix<float> room;
+        MESHREEL_TRY(const MatrixView<const float> first, source_.frames(0, 1, room));
+        const double length = body_diagonal(first.row(0));
+        diagonal_ = length > 0 ? length : 1.0;
+        std::vector<float> coded(3ul * surface().vertex_count);
+        reorder_frame(first.row(0), topology_.original_of, coded);
+        mean_edge_ = tune::mean_edge(coded, surface().triangles);
+        MESHREEL_CHECK(segments_.prepare(usual_bases));
+        allowed_ = allowed_by(options_.quality, still(), diagonal());
+        if (std::isfinite(allowed_.kg) && norm() == 0) // every frame a point: nothing that KG could be a percentage of
+            allowed_.max_error = std::exchange(allowed_.kg, no_limit) / 100 * diagonal();
+        plan_ = tune::plan_of(options_.effort, tune());
+        return Ok{};
     }
 
     /// |A - E(A)| of (5.2), over the vertices that the codec sees.
     double norm() const
     {
         double energy = 0;
-        for (const auto& encoder : encoders_) energy += encoder->energy();
+        for (std::size_t s = 0; s < segments_.count(); ++s) energy += segments_.energy(s);
         return std::sqrt(energy);
     }
 
-    double diagonal() const
-    {
-        const double length = body_diagonal(animation_);
-        return length > 0 ? length : 1.0;
-    }
+    double diagonal() const { return diagonal_; }
 
     Tune tune() const
     {
@@ -145,26 +140,32 @@ private:
         return settings;
     }
 
-    codecs::Settings by_hand()
+    Result<codecs::Settings> by_hand()
     {
         codecs::Settings settings = common({.growth = plan_.start.growth}); // nothing is tuned
         settings.bases = options_.quality.bases;
         settings.step = options_.quality.step.value_or(0.0) * diagonal();
-        if (settings.bases && *settings.bases > max_bases_) prepare(*settings.bases);
+        if (settings.bases && *settings.bases > segments_.max_bases())
+            MESHREEL_CHECK(segments_.prepare(*settings.bases));
         return settings;
     }
 
     /// All segments of a codec that loses nothing.
-    tune::Attempt exact() const
+    Result<tune::Attempt> exact()
     {
         tune::Attempt attempt;
-        for (const auto& encoder : encoders_) {
-            codecs::Trial trial = encoder->encode(common({.growth = plan_.start.growth}));
-            attempt.bases = std::max(attempt.bases, trial.bases);
-            attempt.step = std::max(attempt.step, trial.step);
-            attempt.payloads.push_back(std::move(trial.payload));
+        for (std::size_t s = 0; s < segments_.count(); ++s) {
+            MESHREEL_TRY(const PreparedSegments::Visit segment, segments_.visit(s));
+            add_segment(segment.encoder.encode(common({.growth = plan_.start.growth})), attempt);
         }
         return attempt;
+    }
+
+    static void add_segment(codecs::Trial trial, tune::Attempt& attempt)
+    {
+        attempt.bases = std::max(attempt.bases, trial.bases);
+        attempt.step = std::max(attempt.step, trial.step);
+        attempt.payloads.push_back(std::move(trial.payload));
     }
 
     /// Encodes all segments and measures what the decoder will see, nearly: in surface order, before rounding.
@@ -175,23 +176,23 @@ private:
         attempt.settings = settings;
         double squared_error = 0, sted = 0;
         Measures reached;
-        for (std::size_t s = 0; s < encoders_.size(); ++s) {
-            codecs::Trial trial = encoders_[s]->encode(settings);
-            if (trial.bases == max_bases_ && !settings.bases && max_bases_ < most_bases()) {
-                prepare(std::min(4 * max_bases_, most_bases()));
+        for (std::size_t s = 0; s < segments_.count(); ++s) {
+            MESHREEL_TRY(const PreparedSegments::Visit segment, segments_.visit(s));
+            codecs::Trial trial = segment.encoder.encode(settings);
+            if (trial.bases == segments_.max_bases() && !settings.bases && segments_.max_bases() < most_bases()) {
+                MESHREEL_CHECK(segments_.prepare(std::min(4 * segments_.max_bases(), most_bases())));
                 return attempted(settings);
             }
             squared_error += trial.squared_error;
+            const tune::Meter meter(segment.frames, surface().triangles, options_.threads);
             if (std::isfinite(allowed_.max_error))
-                reached.max_error = std::max(reached.max_error, meters_[s].largest_distance(trial.decoded));
-            if (wants_sted()) sted += static_cast<double>(segments_[s].count) * meters_[s].sted(trial.decoded);
-            attempt.bases = std::max(attempt.bases, trial.bases);
-            attempt.step = std::max(attempt.step, trial.step);
-            attempt.payloads.push_back(std::move(trial.payload));
+                reached.max_error = std::max(reached.max_error, meter.largest_distance(trial.decoded));
+            if (wants_sted()) sted += static_cast<double>(segment.frames.rows) * meter.sted(trial.decoded);
+            add_segment(std::move(trial), attempt);
         }
         reached.kg = norm() > 0 ? 100 * std::sqrt(squared_error) / norm() : 0.0; // (5.2)
-        reached.rms = std::sqrt(squared_error / (static_cast<double>(frames_.values.size()) / 3));
-        reached.sted = sted / static_cast<double>(frames_.rows);
+        reached.rms = std::sqrt(squared_error / points());
+        reached.sted = sted / static_cast<double>(source_.frame_count());
         MESHREEL_TRY(reached.bytes, file_size(attempt.payloads));
         attempt.excess = excess_of(reached, allowed_);
         attempt.cost = !limits_size() ? reached.bytes : tune() == Tune::sted ? reached.sted : reached.rms;
@@ -211,7 +212,7 @@ private:
     }
 
     /// The excess of the decoded file. Keeps the file where it is the best one yet.
-    Result<double> verified(const tune::Attempt& attempt, std::optional<Encoded>& best) const
+    Result<double> verified(const tune::Attempt& attempt, std::optional<Encoded>& best)
     {
         MESHREEL_TRY(Encoded encoded, finished(attempt));
         const double excess = excess_of(reached_by(encoded), allowed_);
@@ -237,12 +238,12 @@ private:
                 {}};
     }
 
-    std::size_t most_bases() const { return std::min<std::size_t>(3 * segments_.back().count, surface().vertex_count); }
+    std::size_t most_bases() const { return std::min<std::size_t>(3 * segments_.longest(), surface().vertex_count); }
 
     /// Below it levels would saturate, and float32 could not tell the difference.
     double finest_step() const
     {
-        const double largest_coefficient = diagonal() * std::sqrt(static_cast<double>(frames_.rows));
+        const double largest_coefficient = diagonal() * std::sqrt(static_cast<double>(source_.frame_count()));
         return largest_coefficient / coding::Quantiser::largest_level;
     }
 
@@ -250,16 +251,15 @@ private:
     double likely_step(const codecs::Settings& settings) const
     {
         constexpr double kg_of_sizes = 0.3, peak = 7.0, smoothness = 5.0; // guesses: an attempt corrects them
-        const double points = static_cast<double>(frames_.values.size()) / 3;
-        double rms = limits_size() ? kg_of_sizes / 100 * norm() / std::sqrt(points) : no_limit;
-        rms = std::min({rms, allowed_.kg / 100 * norm() / std::sqrt(points), allowed_.rms, allowed_.max_error / peak});
+        double rms = limits_size() ? kg_of_sizes / 100 * norm() / std::sqrt(points()) : no_limit;
+        rms = std::min({rms, allowed_.kg / 100 * norm() / std::sqrt(points()), allowed_.rms, allowed_.max_error / peak});
         if (std::isfinite(allowed_.sted))
-            rms = std::min(rms, smoothness * allowed_.sted * tune::mean_edge(frames_.row(0), surface().triangles));
+            rms = std::min(rms, smoothness * allowed_.sted * mean_edge_);
         if (!(rms > 0)) return diagonal() * 1e-4;
         double fine = std::log(1e-9 * diagonal()), coarse = std::log(diagonal());
         for (int i = 0; i < 40; ++i) {
             const double middle = 0.5 * (fine + coarse);
-            (likely_error(settings, std::exp(middle)) < rms * rms * points ? fine : coarse) = middle;
+            (likely_error(settings, std::exp(middle)) < rms * rms * points() ? fine : coarse) = middle;
         }
         return std::exp(fine);
     }
@@ -270,11 +270,11 @@ private:
     {
         const double W = surface().vertex_count, basis = settings.basis_ratio * settings.basis_ratio;
         double error = 0;
-        for (std::size_t s = 0; s < encoders_.size(); ++s)
-            for (double value : encoders_[s]->singular_values())
+        for (std::size_t s = 0; s < segments_.count(); ++s)
+            for (double value : segments_.singular_values(s))
                 error += value < settings.truncation * step * std::sqrt(W)
                              ? value * value
-                             : (W + 3 * static_cast<double>(segments_[s].count) * basis) * step * step / 20;
+                             : (W + 3 * static_cast<double>(segments_.span(s).count) * basis) * step * step / 20;
         return error;
     }
 
@@ -282,72 +282,54 @@ private:
     {
         container::Header header;
         header.codec = codec_.name;
-        header.vertex_count = animation_.vertex_count;
+        header.vertex_count = still().vertex_count;
         header.coded_vertex_count = surface().vertex_count;
-        header.triangle_count = static_cast<std::uint32_t>(animation_.triangles.size());
-        header.frame_count = static_cast<std::uint32_t>(animation_.frame_count());
+        header.triangle_count = static_cast<std::uint32_t>(still().triangles.size());
+        header.frame_count = static_cast<std::uint32_t>(source_.frame_count());
         header.order = options_.order;
         if (options_.order == Order::base)
-            header.base_fingerprint = container::fingerprint_of(animation_.vertex_count, animation_.triangles);
+            header.base_fingerprint = container::fingerprint_of(still().vertex_count, still().triangles);
         header.encoder = concat("meshreel ", version);
         container::StreamWriter file;
-        MESHREEL_CHECK(container::add_head(file, header, animation_.times_s, animation_.meta));
+        MESHREEL_CHECK(container::add_head(file, header, still().times_s, still().meta));
         file.add(container::type::conn, ByteView(topology_.bytes));
         const bool renumbered = options_.order == Order::free;
-        const Appearance& appearance = animation_.appearance;
+        const Appearance& appearance = still().appearance;
         MESHREEL_CHECK(container::add_appearance(
             file, renumbered ? reordered(appearance, {topology_.vertex_of, topology_.corner_of}) : appearance,
-            {animation_.vertex_count, topology_.topology.triangles}));
-        for (std::size_t s = 0; s < segments_.size(); ++s)
+            {still().vertex_count, topology_.topology.triangles}));
+        for (std::size_t s = 0; s < segments_.count(); ++s)
             MESHREEL_CHECK(file.add(container::type::segm,
-                                    container::Segment{static_cast<std::uint32_t>(segments_[s].first),
-                                                       static_cast<std::uint32_t>(segments_[s].count), payloads[s]}));
+                                    container::Segment{static_cast<std::uint32_t>(segments_.span(s).first),
+                                                       static_cast<std::uint32_t>(segments_.span(s).count), payloads[s]}));
         return std::move(file).finish();
     }
 
     /// The file of an attempt, decoded again and measured in the original order.
-    Result<Encoded> finished(const tune::Attempt& attempt) const
+    Result<Encoded> finished(const tune::Attempt& attempt)
     {
         Encoded encoded;
-        DecodeOptions verification;
-        verification.base = options_.base;
-        verification.threads = options_.threads;
         MESHREEL_TRY(encoded.bytes, assembled(attempt.payloads));
-        MESHREEL_TRY(Animation decoded, decode(encoded.bytes, verification));
-        if (options_.order == Order::free) put_back(decoded);
-        decoded.triangles = animation_.triangles;
-        encoded.kg = metrics::kg_error(animation_, decoded, options_.threads);
-        const metrics::VertexError error = metrics::vertex_error(animation_, decoded, options_.threads);
-        encoded.max_error = std::sqrt(error.largest_square);
-        encoded.psnr = 10 * std::log10(diagonal() * diagonal() / error.mean_square); // (5.1)
-        if (wants_sted()) encoded.sted = metrics::sted_error(animation_, decoded, options_.threads);
+        MESHREEL_TRY(const Difference off,
+                     difference(encoded.bytes, source_,
+                                {topology_.vertex_of, options_.base, wants_sted(), options_.threads}));
+        encoded.kg = off.kg;
+        encoded.max_error = std::sqrt(off.vertex_error.largest_square);
+        encoded.psnr = 10 * std::log10(diagonal() * diagonal() / off.vertex_error.mean_square); // (5.1)
+        encoded.sted = off.sted;
         encoded.bpfv = 8.0 * static_cast<double>(encoded.bytes.size()) /
-                       (static_cast<double>(animation_.frame_count()) * animation_.vertex_count); // (9.1)
+                       (static_cast<double>(source_.frame_count()) * still().vertex_count); // (9.1)
         encoded.bases = attempt.bases;
         encoded.step = attempt.step / diagonal();
         return encoded;
     }
 
-    /// Positions in the original order.
-    void put_back(Animation& decoded) const
-    {
-        std::vector<float> frame(decoded.vertex_count * 3ul);
-        for (std::size_t f = 0; f < decoded.frame_count(); ++f) {
-            std::ranges::copy(decoded.frame(f), frame.begin());
-            for (std::size_t i = 0; i < topology_.vertex_of.size(); ++i)
-                std::copy_n(frame.data() + 3 * i, 3, decoded.frame(f).data() + 3ul * topology_.vertex_of[i]);
-        }
-    }
-
-    const Animation& animation_;
+    FrameSource& source_;
     const EncodeOptions& options_;
     const codecs::Codec& codec_;
     connectivity::Encoded topology_;
-    std::vector<FrameSpan> segments_;
-    Matrix<float> frames_; ///< [F x 3W] in surface order
-    std::vector<std::unique_ptr<codecs::Encoder>> encoders_;
-    std::size_t max_bases_ = 0;
-    std::vector<tune::Meter> meters_; ///< one a segment
+    PreparedSegments segments_;
+    double diagonal_ = 1.0, mean_edge_ = 0.0; ///< of the first frame
     std::optional<double> around_;    ///< bytes of a file that are not payload
     Measures allowed_;
     tune::Plan plan_;
@@ -377,14 +359,22 @@ Status check_base(const Animation& animation, const EncodeOptions& options)
 Result<Encoded> encode(const Animation& animation, const EncodeOptions& options)
 {
     MESHREEL_CHECK(validate(animation));
+    HeldFrames frames(animation);
+    return encode(frames, options);
+}
+
+Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options)
+{
+    MESHREEL_CHECK(validate_still(frames.still()));
     MESHREEL_CHECK(check_quality(options.quality));
     MESHREEL_CHECK(check_effort(options.effort));
-    MESHREEL_CHECK(check_base(animation, options));
+    MESHREEL_CHECK(check_base(frames.still(), options));
     const codecs::Codec* codec = codecs::find(options.codec);
     if (codec == nullptr) return usage(concat("there is no codec \"", options.codec, "\""));
     if (codec->exact() && asks_anything(options.quality))
         return usage(concat("the codec ", options.codec, " loses nothing: it has no quality to choose"));
-    return Encoding(animation, options, *codec).encode();
+    MESHREEL_TRY(const std::unique_ptr<Encoding> encoding, Encoding::begin(frames, options, *codec));
+    return encoding->encode();
 }
 
 Animation in_free_order(const Animation& animation, Threads threads)

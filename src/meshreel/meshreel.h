@@ -14,7 +14,7 @@
 #include "meshreel/base/result.h"
 #include "meshreel/codecs/settings.h"
 #include "meshreel/io/io.h"
-#include "meshreel/mesh/animation.h"
+#include "meshreel/mesh/frame_source.h"
 #include "meshreel/metrics/metric.h"
 #include "meshreel/tune/effort.h"
 
@@ -83,6 +83,10 @@ struct DecodeOptions {
 /// @fails bad_input: the animation is not valid; usage: the options contradict each other; missed: no setting of the
 /// codec reaches the target.
 Result<Encoded> encode(const Animation& animation, const EncodeOptions& options = {});
+
+/// The same of frames that are read when they are needed, again and again: of a long animation one segment is in memory
+/// at a time, and the file. @fails as above; as the source does.
+Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options = {});
 
 /// Rebuilds an animation. Any bytes may be given. @fails bad_input, unsupported, naming byte and field.
 Result<Animation> decode(ByteView reel, const DecodeOptions& options = {});

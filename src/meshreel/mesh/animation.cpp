@@ -26,18 +26,6 @@ Status validate_triangles(const Animation& animation)
     return Ok{};
 }
 
-Status validate_positions(const Animation& animation)
-{
-    const std::size_t frame_size = animation.vertex_count * 3ul;
-    for (std::size_t i = 0; i < animation.positions.size(); ++i)
-        if (!std::isfinite(animation.positions[i]))
-            return bad_input(concat("frame ", i / frame_size, ", vertex ", i % frame_size / 3, ", ",
-                                    std::string(1, "xyz"[i % 3]), " is ",
-                                    std::isnan(animation.positions[i]) ? "not a number" : "infinite"),
-                             "positions");
-    return Ok{};
-}
-
 Status validate_times(const Animation& animation)
 {
     const auto& times = animation.times_s;
@@ -120,16 +108,34 @@ std::vector<double> uniform_times(std::size_t frame_count, double fps, double st
     return times;
 }
 
+Status validate_frames(std::size_t first, MatrixView<const float> frames)
+{
+    const std::span<const float> values = frames.values();
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isfinite(values[i]))
+            return bad_input(concat("frame ", first + i / frames.cols, ", vertex ", i % frames.cols / 3, ", ",
+                                    std::string(1, "xyz"[i % 3]), " is ",
+                                    std::isnan(values[i]) ? "not a number" : "infinite"),
+                             "positions");
+    return Ok{};
+}
+
 Status validate(const Animation& animation)
 {
-    if (animation.vertex_count == 0) return bad_input("there is no vertex", "vertex_count");
-    if (animation.times_s.empty()) return bad_input("there is no frame", "frame_count");
+    if (animation.vertex_count == 0 || animation.times_s.empty()) return validate_still(animation);
     if (animation.positions.size() != animation.frame_count() * animation.vertex_count * 3)
         return bad_input(concat(animation.positions.size(), " numbers for ", animation.frame_count(), " frames of ",
                                 animation.vertex_count, " vertices"),
                          "positions");
+    MESHREEL_CHECK(validate_still(animation));
+    return validate_frames(0, {animation.positions.data(), animation.frame_count(), animation.vertex_count * 3ul});
+}
+
+Status validate_still(const Animation& animation)
+{
+    if (animation.vertex_count == 0) return bad_input("there is no vertex", "vertex_count");
+    if (animation.times_s.empty()) return bad_input("there is no frame", "frame_count");
     MESHREEL_CHECK(validate_triangles(animation));
-    MESHREEL_CHECK(validate_positions(animation));
     MESHREEL_CHECK(validate_times(animation));
     MESHREEL_CHECK(validate_metadata(animation.meta));
     for (const Attribute& attribute : animation.appearance.attributes)
@@ -139,8 +145,12 @@ Status validate(const Animation& animation)
 
 double body_diagonal(const Animation& animation)
 {
+    return body_diagonal(animation.frame(0));
+}
+
+double body_diagonal(std::span<const float> first)
+{
     double square = 0;
-    const std::span<const float> first = animation.frame(0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double low = first[axis], high = first[axis];
         for (std::size_t i = axis; i < first.size(); i += 3) {

@@ -96,7 +96,14 @@ std::vector<double> uniform_times(std::size_t frame_count, double fps, double st
 /// without a name. Degenerate, duplicated and non-manifold triangles are valid. @fails bad_input. @cost O(F V + T).
 Status validate(const Animation& animation);
 
+/// The same of all but the positions, which may be missing. @cost O(V + T + F).
+Status validate_still(const Animation& animation);
+/// Finds a NaN or infinity in frames [N x 3V] of which the first has the number `first`. @fails bad_input.
+Status validate_frames(std::size_t first, MatrixView<const float> frames);
+
 /// Length of the diagonal of the bounding box of the first frame, model units. @source thesis 2.1
 double body_diagonal(const Animation& animation);
+/// The same of that frame, [V x 3].
+double body_diagonal(std::span<const float> first_frame);
 
 } // namespace meshreel

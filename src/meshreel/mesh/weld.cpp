@@ -1,4 +1,4 @@
-/// Welding by a hash of each trajectory, read frame by frame as it lies in memory.
+/// Welding by a hash of each trajectory, read frame by frame as it comes.
 // SPDX-License-Identifier: MIT
 #include "meshreel/mesh/weld.h"
 
@@ -27,29 +27,23 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t word)
     return hash ^ (hash >> 29);
 }
 
-std::vector<std::uint64_t> trajectory_hashes(const Animation& animation, const WeldOptions& options)
+Result<std::vector<std::uint64_t>> trajectory_hashes(FrameSource& source, const WeldOptions& options)
 {
-    std::vector<std::uint64_t> hashes(animation.vertex_count, 0x9e3779b97f4a7c15u);
-    for_vertex_blocks(animation.vertex_count, options.threads, [&](std::size_t first, std::size_t last) {
-        for (std::size_t f = 0; f < animation.frame_count(); ++f)
-            for (std::size_t v = first; v < last; ++v) {
-                std::uint32_t bits[3];
-                std::memcpy(bits, animation.frame(f).data() + 3 * v, sizeof bits);
-                hashes[v] = mixed(mixed(hashes[v], bits[0] | std::uint64_t{bits[1]} << 32), bits[2]);
-            }
-        for (std::size_t v = first; v < last; ++v) hashes[v] &= options.hash_mask;
-    });
+    const std::uint32_t V = source.still().vertex_count;
+    std::vector<std::uint64_t> hashes(V, 0x9e3779b97f4a7c15u);
+    MESHREEL_CHECK(for_frame_runs(source, [&](std::size_t, MatrixView<const float> frames) -> Status {
+        for_vertex_blocks(V, options.threads, [&](std::size_t first, std::size_t last) {
+            for (std::size_t f = 0; f < frames.rows; ++f)
+                for (std::size_t v = first; v < last; ++v) {
+                    std::uint32_t bits[3];
+                    std::memcpy(bits, frames.row(f).data() + 3 * v, sizeof bits);
+                    hashes[v] = mixed(mixed(hashes[v], bits[0] | std::uint64_t{bits[1]} << 32), bits[2]);
+                }
+        });
+        return Ok{};
+    }));
+    for (std::uint64_t& hash : hashes) hash &= options.hash_mask;
     return hashes;
-}
-
-/// Negative, zero or positive as the trajectory of vertex a comes before, equals or comes after that of b.
-int compare_trajectories(const Animation& animation, std::uint32_t a, std::uint32_t b)
-{
-    for (std::size_t f = 0; f < animation.frame_count(); ++f) {
-        const float* frame = animation.frame(f).data();
-        if (const int order = std::memcmp(frame + 3ul * a, frame + 3ul * b, 3 * sizeof(float))) return order;
-    }
-    return 0;
 }
 
 /// leader[v]: the first vertex whose hash is that of v.
@@ -65,46 +59,74 @@ std::vector<std::uint32_t> leaders_by_hash(const std::vector<std::uint64_t>& has
 }
 
 /// The vertices whose trajectory is not that of their leader, in rising order.
-std::vector<std::uint32_t> collisions(const Animation& animation, const std::vector<std::uint32_t>& leader,
-                                      Threads threads)
+Result<std::vector<std::uint32_t>> collisions(FrameSource& source, const std::vector<std::uint32_t>& leader,
+                                              Threads threads)
 {
     std::vector<std::uint8_t> differs(leader.size(), 0);
-    for_vertex_blocks(animation.vertex_count, threads, [&](std::size_t first, std::size_t last) {
-        for (std::size_t f = 0; f < animation.frame_count(); ++f) {
-            const float* frame = animation.frame(f).data();
-            for (std::size_t v = first; v < last; ++v)
-                if (leader[v] != v && std::memcmp(frame + 3 * v, frame + 3ul * leader[v], 3 * sizeof(float)) != 0)
-                    differs[v] = 1;
-        }
-    });
+    MESHREEL_CHECK(for_frame_runs(source, [&](std::size_t, MatrixView<const float> frames) -> Status {
+        for_vertex_blocks(source.still().vertex_count, threads, [&](std::size_t first, std::size_t last) {
+            for (std::size_t f = 0; f < frames.rows; ++f) {
+                const float* frame = frames.row(f).data();
+                for (std::size_t v = first; v < last; ++v)
+                    if (leader[v] != v && std::memcmp(frame + 3 * v, frame + 3ul * leader[v], 3 * sizeof(float)) != 0)
+                        differs[v] = 1;
+            }
+        });
+        return Ok{};
+    }));
     std::vector<std::uint32_t> found;
     for (std::uint32_t v = 0; v < differs.size(); ++v)
         if (differs[v]) found.push_back(v);
     return found;
 }
 
-/// Gives vertices that share a hash by accident their true leaders: sorts their trajectories.
-void settle(const Animation& animation, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t>& leader)
+/// A vertex, and the class that it shares with those that were where it was in all frames so far.
+struct Classed {
+    std::uint32_t vertex, number;
+};
+
+/// Splits the classes by where the vertices are in one frame.
+void split_classes(const float* frame, std::vector<Classed>& all)
 {
-    std::sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const int order = compare_trajectories(animation, a, b);
-        return order != 0 ? order < 0 : a < b;
-    });
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const bool as_before = i > 0 && compare_trajectories(animation, vertices[i], vertices[i - 1]) == 0;
-        leader[vertices[i]] = as_before ? leader[vertices[i - 1]] : vertices[i];
+    const auto order = [&](const Classed& a, const Classed& b) {
+        if (a.number != b.number) return a.number < b.number ? -1 : 1;
+        return std::memcmp(frame + 3ul * a.vertex, frame + 3ul * b.vertex, 3 * sizeof(float));
+    };
+    std::stable_sort(all.begin(), all.end(), [&](const Classed& a, const Classed& b) { return order(a, b) < 0; });
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool next = i + 1 < all.size() && order(all[i], all[i + 1]) != 0;
+        all[i].number = number;
+        number += next ? 1 : 0;
     }
 }
 
-} // namespace
-
-Weld weld(const Animation& animation, const WeldOptions& options)
+/// Gives vertices that share a hash by accident their true leaders: splits them frame by frame.
+Status settle(FrameSource& source, const std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& leader)
 {
-    std::vector<std::uint32_t> leader = leaders_by_hash(trajectory_hashes(animation, options));
-    settle(animation, collisions(animation, leader, options.threads), leader);
+    if (vertices.empty()) return Ok{};
+    std::vector<Classed> all;
+    for (std::uint32_t v : vertices) all.push_back({v, 0});
+    MESHREEL_CHECK(for_frame_runs(source, [&](std::size_t, MatrixView<const float> frames) -> Status {
+        for (std::size_t f = 0; f < frames.rows; ++f) split_classes(frames.row(f).data(), all);
+        return Ok{};
+    }));
+    std::sort(all.begin(), all.end(), [](const Classed& a, const Classed& b) {
+        return a.number != b.number ? a.number < b.number : a.vertex < b.vertex;
+    });
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool as_before = i > 0 && all[i].number == all[i - 1].number;
+        leader[all[i].vertex] = as_before ? leader[all[i - 1].vertex] : all[i].vertex;
+    }
+    return Ok{};
+}
+
+/// The classes, numbered by first occurrence.
+Weld numbered(const std::vector<std::uint32_t>& leader)
+{
     Weld result;
-    result.unique_of.resize(animation.vertex_count);
-    for (std::uint32_t v = 0; v < animation.vertex_count; ++v) {
+    result.unique_of.resize(leader.size());
+    for (std::uint32_t v = 0; v < leader.size(); ++v) {
         if (leader[v] == v) {
             result.unique_of[v] = result.unique_count();
             result.first_of.push_back(v);
@@ -113,6 +135,23 @@ Weld weld(const Animation& animation, const WeldOptions& options)
         }
     }
     return result;
+}
+
+} // namespace
+
+Result<Weld> weld(FrameSource& source, const WeldOptions& options)
+{
+    MESHREEL_TRY(const std::vector<std::uint64_t> hashes, trajectory_hashes(source, options));
+    std::vector<std::uint32_t> leader = leaders_by_hash(hashes);
+    MESHREEL_TRY(const std::vector<std::uint32_t> found, collisions(source, leader, options.threads));
+    MESHREEL_CHECK(settle(source, found, leader));
+    return numbered(leader);
+}
+
+Weld weld(const Animation& animation, const WeldOptions& options)
+{
+    HeldFrames source(animation);
+    return *weld(source, options); // memory does not fail
 }
 
 } // namespace meshreel

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "meshreel/base/parallel.h"
-#include "meshreel/mesh/animation.h"
+#include "meshreel/mesh/frame_source.h"
 
 namespace meshreel {
 
@@ -26,6 +26,9 @@ struct WeldOptions {
 /// Finds the vertices with identical trajectories. Bits decide: -0.0 and 0.0 differ, so that splitting gives back what
 /// was there. Equal hashes are always verified.
 /// @cost O(V F) time, 24 bytes a vertex beside the result.
+/// Reads the frames twice: to hash, and to verify.  @fails as the source does.
+Result<Weld> weld(FrameSource& source, const WeldOptions& options);
+/// Of an animation in memory.
 Weld weld(const Animation& animation, const WeldOptions& options);
 inline Weld weld(const Animation& animation, Threads threads = {})
 {

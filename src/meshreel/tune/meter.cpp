@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshreel/mesh/frame_source.h"
 #include "meshreel/metrics/sted.h"
 #include "meshreel/metrics/vertex_error.h"
 
@@ -13,30 +14,40 @@ namespace meshreel::tune {
 Meter::Meter(MatrixView<const float> frames, std::span<const Triangle> triangles, Threads threads)
     : frames_(frames), triangles_(triangles), threads_(threads)
 {
-    constexpr std::size_t most_frames = 32;
-    const std::size_t F = frames.rows, count = std::min(F, most_frames);
-    originals_ = Matrix<double>(count, frames.cols);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t f = (2 * i + 1) * F / (2 * count); // the middles of equal parts
-        some_.push_back(only(static_cast<std::uint32_t>(f)));
-        std::ranges::copy(frames.row(f), originals_.row(i).begin());
-    }
 }
 
 double Meter::largest_distance(const codecs::Trajectories& decoded) const
 {
-    Matrix<float> rebuilt(frames_.rows, frames_.cols);
-    codecs::rebuild(decoded, rebuilt.view(), threads_);
-    return std::sqrt(metrics::vertex_error({frames_, rebuilt.view(), {}}, threads_).largest_square);
+    metrics::RunningVertexError error(threads_);
+    const std::size_t run = frames_a_run(static_cast<std::uint32_t>(frames_.cols / 3));
+    for (std::size_t first = 0; first < frames_.rows; first += run) {
+        std::vector<FrameMix> wanted;
+        for (std::size_t f = first; f < std::min(frames_.rows, first + run); ++f)
+            wanted.push_back(only(static_cast<std::uint32_t>(f)));
+        Matrix<double> posed(wanted.size(), frames_.cols);
+        codecs::pose(decoded, {wanted, 0}, posed.view(), threads_);
+        Matrix<float> rounded(posed.rows, posed.cols);
+        std::ranges::copy(posed.values, rounded.values.begin());
+        error.add({{frames_.row(first).data(), posed.rows, posed.cols}, rounded.view(), {}});
+    }
+    return std::sqrt(error.value().largest_square);
 }
 
 double Meter::sted(const codecs::Trajectories& decoded) const
 {
-    Matrix<double> posed(originals_.rows, originals_.cols);
-    codecs::pose(decoded, {some_, 0}, posed.view(), threads_);
+    constexpr std::size_t most_frames = 32, most_points = 2'000'000;
+    const std::size_t F = frames_.rows, count = std::min({F, most_frames, 1 + 3 * most_points / frames_.cols});
+    std::vector<FrameMix> wanted;
+    Matrix<double> originals(count, frames_.cols), posed(count, frames_.cols);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t f = (2 * i + 1) * F / (2 * count); // the middles of equal parts
+        wanted.push_back(only(static_cast<std::uint32_t>(f)));
+        std::ranges::copy(frames_.row(f), originals.row(i).begin());
+    }
+    codecs::pose(decoded, {wanted, 0}, posed.view(), threads_);
     metrics::StedOptions options;
     options.threads = threads_;
-    return metrics::sted_spatial(metrics::Pair<double>{originals_.view(), posed.view(), triangles_}, options);
+    return metrics::sted_spatial(metrics::Pair<double>{originals.view(), posed.view(), triangles_}, options);
 }
 
 double mean_edge(std::span<const float> frame, std::span<const Triangle> triangles)

@@ -22,7 +22,7 @@ public:
     double largest_distance(const codecs::Trajectories& decoded) const;
 
     /// The spatial part of STED (7.8), nearly: from some of the frames. The temporal part is far below it in practice.
-    /// @cost that of 32 frames at most.
+    /// @cost that of 32 frames, or of 2 million points.
     double sted(const codecs::Trajectories& decoded) const;
 
     std::size_t frame_count() const { return frames_.rows; }
@@ -31,8 +31,6 @@ private:
     MatrixView<const float> frames_;
     std::span<const Triangle> triangles_;
     Threads threads_;
-    std::vector<FrameMix> some_; ///< frames that STED looks at
-    Matrix<double> originals_;   ///< their positions
 };
 
 /// The mean length of the edges of the triangles (each counted once a triangle) in one frame; 0 where there are none.
