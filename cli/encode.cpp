@@ -84,16 +84,16 @@ public:
         figures["skipped"] = go == Go::skip;
         if (go == Go::skip) return Report{figures, fmt::format("{}: exists, skipped\n", target_.path)};
         MESHREEL_TRY(const Animation base, load_base(source_, console));
-        MESHREEL_TRY(const Animation animation, load(source_, console));
+        MESHREEL_TRY(const std::unique_ptr<FrameSource> frames, open(source_, console));
         const Stopwatch encoding;
-        MESHREEL_TRY(const Encoded encoded, in_file(encode(animation, options(base, console)), source_.path));
+        MESHREEL_TRY(const Encoded encoded, in_file(encode(*frames, options(base, console)), source_.path));
         const double encode_seconds = encoding.seconds();
         MESHREEL_CHECK(save_bytes(encoded.bytes, target_));
-        add_figures(figures, animation, encoded);
+        MESHREEL_CHECK(add_figures(figures, *frames, encoded));
         figures["encode_seconds"] = encode_seconds;
         figures["seconds"] = watch.seconds();
         figures["peak_memory_bytes"] = peak_memory_bytes();
-        return Report{figures, summary(figures, animation)};
+        return Report{figures, summary(figures, frames->still())};
     }
 
 private:
@@ -190,9 +190,12 @@ private:
         return all;
     }
 
-    void add_figures(Json& figures, const Animation& animation, const Encoded& encoded) const
+    Status add_figures(Json& figures, FrameSource& frames, const Encoded& encoded) const
     {
-        const double diagonal = body_diagonal(animation);
+        const Animation& animation = frames.still();
+        Matrix<float> room;
+        MESHREEL_TRY(const MatrixView<const float> first, frames.frames(0, 1, room));
+        const double diagonal = body_diagonal(first.row(0));
         add_counts(figures, animation);
         figures["codec"] = choices_.codec;
         figures["order"] = source_.base.empty() ? choices_.order : "base";
@@ -209,6 +212,7 @@ private:
         figures["effort"] = effort_;
         figures["bases"] = encoded.bases;
         figures["step"] = number(encoded.step);
+        return Ok{};
     }
 
     std::string summary(const Json& figures, const Animation& animation) const

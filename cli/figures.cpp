@@ -42,7 +42,8 @@ Json attribute_json(const Attribute& attribute)
 
 unsigned long long raw_bytes(const Animation& animation)
 {
-    return animation.positions.size() * sizeof(float) + animation.triangles.size() * sizeof(Triangle);
+    return animation.frame_count() * animation.vertex_count * 3 * sizeof(float) +
+           animation.triangles.size() * sizeof(Triangle);
 }
 
 void add_counts(Json& figures, const Animation& animation)

@@ -12,6 +12,7 @@
 #include "cli/figures.h"
 #include "cli/numbers.h"
 #include "cli/reel_file.h"
+#include "meshreel/io/streamed_frames.h"
 
 namespace meshreel::cli {
 
@@ -123,6 +124,19 @@ Result<Animation> load(const Source& source, Console& console)
     if (animation.ok())
         console.detail(fmt::format("{}: read in {:.3f} s: {}", source.path, watch.seconds(), counts_text(*animation)));
     return animation;
+}
+
+Result<std::unique_ptr<FrameSource>> open(const Source& source, Console& console)
+{
+    if (source.is_reel() || source.path == "-") {
+        MESHREEL_TRY(Animation animation, load(source, console));
+        return std::unique_ptr<FrameSource>(std::make_unique<io::OwnedFrames>(std::move(animation)));
+    }
+    if (source.format.empty()) MESHREEL_CHECK(check_extension(source.path));
+    const io::LoadOptions options = load_options(source, console);
+    const io::Format* const format = source.format.empty() ? nullptr : format_called(source.format);
+    return in_file(format != nullptr ? io::open(*format, source.path, options) : io::open(source.path, options),
+                   source.path);
 }
 
 } // namespace meshreel::cli

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -48,5 +49,8 @@ Status check_extension(const std::string& path);
 
 /// Reads any animation; the result is valid. @fails as io::load and decode do, naming the file.
 Result<Animation> load(const Source& source, Console& console);
+
+/// The same, its frames read when they are asked for, where that is possible.
+Result<std::unique_ptr<FrameSource>> open(const Source& source, Console& console);
 
 } // namespace meshreel::cli

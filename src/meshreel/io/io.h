@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,7 +12,7 @@
 
 #include "meshreel/base/limits.h"
 #include "meshreel/base/progress.h"
-#include "meshreel/mesh/animation.h"
+#include "meshreel/mesh/frame_source.h"
 
 namespace meshreel::io {
 
@@ -53,6 +54,8 @@ struct Format {
     std::string_view summary;                     ///< "Wavefront OBJ, one file a frame"
     Result<Animation> (*load)(const std::string& path, const LoadOptions& options);
     Status (*save)(const Animation& animation, const std::string& path, const SaveOptions& options);
+    /// Null where files of this format are only read as a whole.
+    Result<std::unique_ptr<FrameSource>> (*open)(const std::string& path, const LoadOptions& options) = nullptr;
 };
 
 /// Every format, in the order of the documentation.
@@ -64,6 +67,12 @@ Result<const Format*> format_of(const std::string& path);
 /// Reads an animation: a file, or a sequence ("walk.####.obj", "walk.%04d.obj", "walk.*.obj"; natural order).
 /// The result is valid (see validate). @fails as the format says, always naming file and place.
 Result<Animation> load(const std::string& path, const LoadOptions& options = {});
+
+/// The same, read frame by frame when it is asked for, where the format and the file (a regular one) allow it: PC2, MDD,
+/// and sequences of OBJ, PLY and OFF too large to hold. The files must stay as they are. @fails likewise.
+Result<std::unique_ptr<FrameSource>> open(const std::string& path, const LoadOptions& options = {});
+/// Of a format that is known.
+Result<std::unique_ptr<FrameSource>> open(const Format& format, const std::string& path, const LoadOptions& options);
 
 /// Writes an animation in the format that the path's extension names; a sequence pattern writes one file a frame.
 /// Nothing is left behind where it fails.

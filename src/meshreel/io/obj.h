@@ -16,6 +16,7 @@ Result<Bytes> write_obj(const Animation& animation, std::size_t frame, const Sav
 
 /// A file or a sequence, with the material libraries beside it.
 Result<Animation> load_obj(const std::string& path, const LoadOptions& options);
+Result<std::unique_ptr<FrameSource>> open_obj(const std::string& path, const LoadOptions& options);
 Status save_obj(const Animation& animation, const std::string& path, const SaveOptions& options);
 
 } // namespace meshreel::io

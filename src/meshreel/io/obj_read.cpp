@@ -352,10 +352,11 @@ Result<Animation> parse_obj(ByteView bytes, const LoadOptions& options)
 
 Result<Animation> load_obj(const std::string& path, const LoadOptions& options)
 {
-    MESHREEL_TRY(Animation animation, load_sequence(path, options, parse_obj));
-    MESHREEL_TRY(const std::string first, first_file(path, options));
-    read_libraries(animation, first, options);
-    return animation;
+    return load_sequence(path, options, {parse_obj, read_libraries});
+}
+Result<std::unique_ptr<FrameSource>> open_obj(const std::string& path, const LoadOptions& options)
+{
+    return open_sequence(path, options, {parse_obj, read_libraries});
 }
 
 } // namespace meshreel::io

@@ -15,6 +15,7 @@ Result<Bytes> write_off(const Animation& animation, std::size_t frame, const Sav
 
 /// A file or a sequence.
 Result<Animation> load_off(const std::string& path, const LoadOptions& options);
+Result<std::unique_ptr<FrameSource>> open_off(const std::string& path, const LoadOptions& options);
 Status save_off(const Animation& animation, const std::string& path, const SaveOptions& options);
 
 } // namespace meshreel::io

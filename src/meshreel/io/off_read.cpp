@@ -277,7 +277,11 @@ Result<Animation> parse_off(ByteView bytes, const LoadOptions& options)
 
 Result<Animation> load_off(const std::string& path, const LoadOptions& options)
 {
-    return load_sequence(path, options, parse_off);
+    return load_sequence(path, options, {parse_off});
+}
+Result<std::unique_ptr<FrameSource>> open_off(const std::string& path, const LoadOptions& options)
+{
+    return open_sequence(path, options, {parse_off});
 }
 
 } // namespace meshreel::io

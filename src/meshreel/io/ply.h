@@ -16,6 +16,7 @@ Result<Bytes> write_ply(const Animation& animation, std::size_t frame, const Sav
 
 /// A file or a sequence.
 Result<Animation> load_ply(const std::string& path, const LoadOptions& options);
+Result<std::unique_ptr<FrameSource>> open_ply(const std::string& path, const LoadOptions& options);
 Status save_ply(const Animation& animation, const std::string& path, const SaveOptions& options);
 
 } // namespace meshreel::io

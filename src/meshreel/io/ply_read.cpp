@@ -266,7 +266,11 @@ Result<Animation> parse_ply(ByteView bytes, const LoadOptions& options)
 
 Result<Animation> load_ply(const std::string& path, const LoadOptions& options)
 {
-    return load_sequence(path, options, parse_ply);
+    return load_sequence(path, options, {parse_ply});
+}
+Result<std::unique_ptr<FrameSource>> open_ply(const std::string& path, const LoadOptions& options)
+{
+    return open_sequence(path, options, {parse_ply});
 }
 
 } // namespace meshreel::io

@@ -23,7 +23,9 @@ Result<Bytes> write_pc2(const Animation& animation);
 Result<Bytes> write_mdd(const Animation& animation);
 
 Result<Animation> load_pc2(const std::string& path, const LoadOptions& options);
+Result<std::unique_ptr<FrameSource>> open_pc2(const std::string& path, const LoadOptions& options);
 Result<Animation> load_mdd(const std::string& path, const LoadOptions& options);
+Result<std::unique_ptr<FrameSource>> open_mdd(const std::string& path, const LoadOptions& options);
 Status save_pc2(const Animation& animation, const std::string& path, const SaveOptions& options);
 Status save_mdd(const Animation& animation, const std::string& path, const SaveOptions& options);
 

@@ -12,6 +12,7 @@
 #include "meshreel/io/off.h"
 #include "meshreel/io/ply.h"
 #include "meshreel/io/point_cache.h"
+#include "meshreel/io/streamed_frames.h"
 
 namespace meshreel::io {
 
@@ -28,11 +29,11 @@ constexpr std::string_view md2_extensions[] = {"md2"};
 constexpr std::string_view md3_extensions[] = {"md3"};
 
 constexpr Format table[] = {
-    {"obj", obj_extensions, "Wavefront OBJ, one file a frame", load_obj, save_obj},
-    {"ply", ply_extensions, "Stanford PLY, one file a frame", load_ply, save_ply},
-    {"off", off_extensions, "Object File Format, one file a frame", load_off, save_off},
-    {"pc2", pc2_extensions, "PointCache2, positions of a mesh, evenly spaced", load_pc2, save_pc2},
-    {"mdd", mdd_extensions, "MDD, positions of a mesh, with times", load_mdd, save_mdd},
+    {"obj", obj_extensions, "Wavefront OBJ, one file a frame", load_obj, save_obj, open_obj},
+    {"ply", ply_extensions, "Stanford PLY, one file a frame", load_ply, save_ply, open_ply},
+    {"off", off_extensions, "Object File Format, one file a frame", load_off, save_off, open_off},
+    {"pc2", pc2_extensions, "PointCache2, positions of a mesh, evenly spaced", load_pc2, save_pc2, open_pc2},
+    {"mdd", mdd_extensions, "MDD, positions of a mesh, with times", load_mdd, save_mdd, open_mdd},
     {"md2", md2_extensions, "Quake II model", load_md2, nullptr},
     {"md3", md3_extensions, "Quake III model", load_md3, nullptr},
     {"gltf", gltf_extensions, "glTF 2.0 and GLB, skins and morph targets baked", load_gltf, save_gltf},
@@ -79,6 +80,26 @@ Result<Animation> load(const std::string& path, const LoadOptions& options)
     MESHREEL_TRY(Animation animation, in_file(format->load(path, options), path));
     MESHREEL_CHECK(in_file(validate(animation), path));
     return animation;
+}
+
+Result<std::unique_ptr<FrameSource>> open(const std::string& path, const LoadOptions& options)
+{
+    MESHREEL_TRY(const Format* format, format_of(path));
+    return open(*format, path, options);
+}
+
+Result<std::unique_ptr<FrameSource>> open(const Format& format, const std::string& path, const LoadOptions& options)
+{
+    if (format.open != nullptr && path != "-") {
+        MESHREEL_TRY(std::unique_ptr<FrameSource> frames, in_file(format.open(path, options), path));
+        MESHREEL_CHECK(in_file(validate_still(frames->still()), path));
+        return frames;
+    }
+    if (format.load == nullptr)
+        return Error{ErrorCode::unsupported, concat(format.name, " files are only written"), {}, path, {}};
+    MESHREEL_TRY(Animation animation, in_file(format.load(path, options), path));
+    MESHREEL_CHECK(in_file(validate(animation), path));
+    return std::unique_ptr<FrameSource>(std::make_unique<OwnedFrames>(std::move(animation)));
 }
 
 Status save(const Animation& animation, const std::string& path, const SaveOptions& options)

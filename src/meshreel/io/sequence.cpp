@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "meshreel/base/text.h"
 #include "meshreel/io/frames.h"
 #include "meshreel/io/pattern.h"
+#include "meshreel/io/streamed_frames.h"
 
 namespace meshreel::io {
 
@@ -31,118 +33,137 @@ Result<std::vector<FrameFile>> files_of(const std::string& path, const LoadOptio
     return files;
 }
 
-/// Reads the files of a sequence one after the other.
-class SequenceReader {
+/// The files of a sequence, read one after the other.
+class SequenceFrames : public StreamedFrames {
 public:
-    SequenceReader(const LoadOptions& options, ParseMesh parse) : parse_(parse), options_(options)
+    SequenceFrames(std::vector<FrameFile> files, const Selection& chosen, const LoadOptions& options,
+                   const MeshFormat& format)
+        : files_(std::move(files)), chosen_(chosen), format_(format), options_(options)
     {
         options_.warn = [this, warn = options.warn](std::string sentence) {
             if (warn && told_.insert(sentence).second) warn(file_ + ": " + sentence);
         };
     }
-    SequenceReader(const SequenceReader&) = delete;
-    SequenceReader& operator=(const SequenceReader&) = delete;
+    SequenceFrames(const SequenceFrames&) = delete;
+    SequenceFrames& operator=(const SequenceFrames&) = delete;
 
-    Result<Animation> read(const std::vector<FrameFile>& files, const Selection& chosen);
+    /// Reads the first file. options: whose warnings do not name a file yet.
+    Status begin(const LoadOptions& options);
 
 private:
+    Status read_frame(std::size_t i, std::span<float> positions) override;
+    std::uint64_t number(std::size_t i) const override { return chosen_[i]; }
+    const std::string& file(std::size_t i) const override { return files_[chosen_[i]].path; }
+
     Result<Animation> read_mesh(const std::string& path, std::uint64_t frame);
-    Status append(const Animation& mesh, std::uint64_t frame);
+    Status check_like_first(const Animation& mesh, std::uint64_t frame);
     Status same_triangles(const Animation& mesh, std::uint64_t frame) const;
     void compare_attributes(const Animation& mesh);
 
-    ParseMesh parse_;
+    std::vector<FrameFile> files_;
+    Selection chosen_;
+    MeshFormat format_;
     LoadOptions options_;
     std::set<std::string> told_; ///< what one frame said the others need not repeat
-    std::string file_, first_file_;
-    Animation all_;
+    std::string file_;
+    std::vector<float> first_positions_; ///< of the first frame, until it is asked for
 };
 
-Result<Animation> SequenceReader::read_mesh(const std::string& path, std::uint64_t frame)
+Result<Animation> SequenceFrames::read_mesh(const std::string& path, std::uint64_t frame)
 {
     file_ = path;
     MESHREEL_TRY(const Bytes bytes, read_file(path, options_.limits));
-    MESHREEL_TRY(Animation mesh, in_file(parse_(bytes, options_), path));
+    MESHREEL_TRY(Animation mesh, in_file(format_.parse(bytes, options_), path));
     MESHREEL_CHECK(in_file(check_finite(mesh.positions, frame), path));
     return mesh;
 }
 
-Status SequenceReader::same_triangles(const Animation& mesh, std::uint64_t frame) const
+Status SequenceFrames::same_triangles(const Animation& mesh, std::uint64_t frame) const
 {
     const auto named = [](const Triangle& t) { return concat("(", t[0], " ", t[1], " ", t[2], ")"); };
-    if (mesh.triangles.size() != all_.triangles.size())
+    if (mesh.triangles.size() != still_.triangles.size())
         return bad_input(concat("frame ", frame, " has ", mesh.triangles.size(), " triangles, the first frame (",
-                                first_file_, ") has ", all_.triangles.size(), "; the connectivity must not change"),
+                                file(0), ") has ", still_.triangles.size(), "; the connectivity must not change"),
                          "triangles");
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        if (mesh.triangles[t] != all_.triangles[t])
+        if (mesh.triangles[t] != still_.triangles[t])
             return bad_input(concat("frame ", frame, ": triangle ", t, " is ", named(mesh.triangles[t]),
-                                    ", in the first frame (", first_file_, ") it is ", named(all_.triangles[t]),
+                                    ", in the first frame (", file(0), ") it is ", named(still_.triangles[t]),
                                     "; the connectivity must not change"),
                              "triangles");
     return Ok{};
 }
 
-void SequenceReader::compare_attributes(const Animation& mesh)
+void SequenceFrames::compare_attributes(const Animation& mesh)
 {
     for (const Attribute& later : mesh.appearance.attributes)
-        if (!all_.appearance.find(later.name))
+        if (!still_.appearance.find(later.name))
             options_.warn(concat("the attribute ", later.name, " is not in the first frame, and is left out"));
-    for (const Attribute& first : all_.appearance.attributes) {
+    for (const Attribute& first : still_.appearance.attributes) {
         const Attribute* later = mesh.appearance.find(first.name);
         if (!later || later->values != first.values || later->indices != first.indices)
             options_.warn(concat("the attribute ", first.name, " differs from the first frame's, which is kept"));
     }
 }
 
-Status SequenceReader::append(const Animation& mesh, std::uint64_t frame)
+Status SequenceFrames::check_like_first(const Animation& mesh, std::uint64_t frame)
 {
-    if (mesh.vertex_count != all_.vertex_count)
-        return bad_input(concat("frame ", frame, " has ", mesh.vertex_count, " vertices, the first frame (",
-                                first_file_, ") has ", all_.vertex_count),
+    if (mesh.vertex_count != still_.vertex_count)
+        return bad_input(concat("frame ", frame, " has ", mesh.vertex_count, " vertices, the first frame (", file(0),
+                                ") has ", still_.vertex_count),
                          "vertex_count");
     MESHREEL_CHECK(same_triangles(mesh, frame));
     compare_attributes(mesh);
-    all_.positions.insert(all_.positions.end(), mesh.positions.begin(), mesh.positions.end());
     return Ok{};
 }
 
-Result<Animation> SequenceReader::read(const std::vector<FrameFile>& files, const Selection& chosen)
+Status SequenceFrames::begin(const LoadOptions& options)
 {
-    first_file_ = files[chosen.first].path;
-    MESHREEL_TRY(all_, read_mesh(first_file_, chosen.first));
-    MESHREEL_CHECK(
-        in_file(within(options_.limits, all_.vertex_count, all_.triangles.size(), chosen.count), first_file_));
-    all_.positions.reserve(all_.positions.size() * chosen.count);
-    for (std::uint64_t i = 1; i < chosen.count; ++i) {
-        report(options_.progress, "reading", static_cast<double>(i) / static_cast<double>(chosen.count));
-        const FrameFile& file = files[chosen[i]];
-        MESHREEL_TRY(const Animation mesh, read_mesh(file.path, chosen[i]));
-        MESHREEL_CHECK(in_file(append(mesh, chosen[i]), file.path));
+    MESHREEL_TRY(still_, read_mesh(file(0), chosen_.first));
+    MESHREEL_CHECK(in_file(within(options_.limits, still_.vertex_count, still_.triangles.size(), 1), file(0)));
+    MESHREEL_CHECK(in_file(within(chosen_.count, options_.limits.max_frames, "frame_count"), file(0)));
+    first_positions_ = std::exchange(still_.positions, {});
+    give_times(still_, chosen_, options);
+    if (format_.complete != nullptr) format_.complete(still_, file(0), options);
+    return Ok{};
+}
+
+Status SequenceFrames::read_frame(std::size_t i, std::span<float> positions)
+{
+    if (i == 0 && !first_positions_.empty()) {
+        std::ranges::copy(std::exchange(first_positions_, {}), positions.begin());
+        return Ok{};
     }
-    return std::move(all_);
+    MESHREEL_TRY(const Animation mesh, read_mesh(file(i), chosen_[i]));
+    MESHREEL_CHECK(check_like_first(mesh, chosen_[i]));
+    std::ranges::copy(mesh.positions, positions.begin());
+    return Ok{};
+}
+
+Result<std::unique_ptr<FrameSource>> streamed_sequence(const std::string& path, const LoadOptions& options,
+                                                       const MeshFormat& format)
+{
+    MESHREEL_CHECK(check_fps(options));
+    MESHREEL_TRY(std::vector<FrameFile> files, files_of(path, options));
+    MESHREEL_TRY(const Selection chosen, in_file(select_frames(options.frames, files.size()), path));
+    auto frames = std::make_unique<SequenceFrames>(std::move(files), chosen, options, format);
+    MESHREEL_CHECK(frames->begin(options));
+    return std::unique_ptr<FrameSource>(std::move(frames));
 }
 
 } // namespace
 
-Result<Animation> load_sequence(const std::string& path, const LoadOptions& options, ParseMesh parse)
+Result<Animation> load_sequence(const std::string& path, const LoadOptions& options, const MeshFormat& format)
 {
-    MESHREEL_CHECK(check_fps(options));
-    MESHREEL_TRY(const std::vector<FrameFile> files, files_of(path, options));
-    MESHREEL_TRY(const Selection chosen, in_file(select_frames(options.frames, files.size()), path));
-    SequenceReader reader(options, parse);
-    MESHREEL_TRY(Animation animation, reader.read(files, chosen));
-    give_times(animation, chosen, options);
-    return animation;
+    MESHREEL_TRY(const std::unique_ptr<FrameSource> frames, streamed_sequence(path, options, format));
+    return gathered(*frames, options);
 }
 
-Result<std::string> first_file(const std::string& path, const LoadOptions& options)
+Result<std::unique_ptr<FrameSource>> open_sequence(const std::string& path, const LoadOptions& options,
+                                                   const MeshFormat& format)
 {
-    LoadOptions silent = options;
-    silent.warn = nullptr;
-    MESHREEL_TRY(const std::vector<FrameFile> files, files_of(path, silent));
-    MESHREEL_TRY(const Selection chosen, in_file(select_frames(options.frames, files.size()), path));
-    return files[chosen.first].path;
+    MESHREEL_TRY(std::unique_ptr<FrameSource> frames, streamed_sequence(path, options, format));
+    return held_if_small(std::move(frames), options);
 }
 
 Status add_sequence(FileSet& files, const Animation& animation, const SequenceTarget& target,

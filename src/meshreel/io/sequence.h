@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "meshreel/io/file_set.h"
@@ -14,13 +15,21 @@ using ParseMesh = Result<Animation> (*)(ByteView bytes, const LoadOptions& optio
 /// The bytes of the file of one frame.
 using WriteMesh = Result<Bytes> (*)(const Animation& animation, std::size_t frame, const SaveOptions& options);
 
+/// How the files of a format are read.
+struct MeshFormat {
+    ParseMesh parse;
+    /// Fetches what the first file, of that path, names; null where a format names nothing.
+    void (*complete)(Animation& first, const std::string& path, const LoadOptions& options) = nullptr;
+};
+
 /// Reads a file, or a sequence (see Pattern). Triangles and appearance are those of the first frame.
 /// Frame i of the source is shown at i / fps seconds.
 /// @fails io: no such file; bad_input: a file is broken, or its vertex count or triangles differ from the first one's.
-Result<Animation> load_sequence(const std::string& path, const LoadOptions& options, ParseMesh parse);
+Result<Animation> load_sequence(const std::string& path, const LoadOptions& options, const MeshFormat& format);
 
-/// The path of the first file that load_sequence would read.
-Result<std::string> first_file(const std::string& path, const LoadOptions& options);
+/// The same, of which only the first file is read yet, unless all are small. @fails likewise.
+Result<std::unique_ptr<FrameSource>> open_sequence(const std::string& path, const LoadOptions& options,
+                                                   const MeshFormat& format);
 
 /// Where frames go and how one becomes bytes.
 struct SequenceTarget {
