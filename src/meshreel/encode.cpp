@@ -25,7 +25,8 @@ namespace meshreel {
 namespace {
 
 constexpr std::size_t usual_segment = 1000; // frames at most; the PCA grows with the cube of a segment's length
-constexpr std::uint32_t fast_growth = 16;   // 3 to 5 % more bits; 64 would be 10 to 15 %
+constexpr std::uint32_t fast_growth = 12;   // with fewer neighbours 2 to 8 % more bits; see docs/effort.md
+constexpr std::uint32_t fast_neighbours = 10;
 constexpr double fine_truncation = 0.08;    // whatever component is left out, some vertex misses it
 constexpr std::size_t usual_bases = 256;    // enough for nearly every target; more are prepared when it is not
 
@@ -136,7 +137,10 @@ private:
         settings.basis = options_.basis;
         settings.entropy = options_.entropy;
         settings.threads = options_.threads;
-        if (options_.fast_decode) settings.growth = std::max(settings.growth, fast_growth);
+        if (options_.fast_decode) {
+            settings.growth = std::max(settings.growth, fast_growth);
+            settings.neighbours = fast_neighbours;
+        }
         return settings;
     }
 

@@ -9,6 +9,12 @@ namespace meshreel::codecs {
 
 namespace {
 
+/// The nearest by the first components, from which the best by all known ones are chosen.
+std::size_t candidates_of(const InterpolationLaw& law)
+{
+    return law.neighbours + law.neighbours / 2;
+}
+
 /// Squared distance in four sums side by side.
 double squared_distance_of(std::span<const double> a, std::span<const double> b)
 {
@@ -27,7 +33,8 @@ double squared_distance_of(std::span<const double> a, std::span<const double> b)
 
 Interpolation::Interpolation(MatrixView<const double> first, std::vector<double> relevance, InterpolationLaw law,
                              Threads threads)
-    : order_(coarse_to_fine(first, candidates, threads)), relevance_(std::move(relevance)), law_(law), threads_(threads)
+    : order_(coarse_to_fine(first, candidates_of(law), threads)), relevance_(std::move(relevance)), law_(law),
+      threads_(threads)
 {
 }
 
@@ -65,7 +72,7 @@ void Interpolation::weigh(const Task& task, std::size_t first, predict::Kriging&
                           std::span<Weights> result) const
 {
     const auto& [level, C, known] = task;
-    const std::size_t n = std::min(level.candidates, most);
+    const std::size_t n = std::min<std::size_t>(level.candidates, law_.neighbours);
     for (std::size_t lane = 0; lane < result.size(); ++lane) {
         const std::span<Near> near = level.of(first + lane);
         const std::span<const double> own = C.row(level.vertices[first + lane]);

@@ -16,10 +16,11 @@ namespace meshreel::codecs {
 
 /// How the weights of a segment are found; part of the payload.
 struct InterpolationLaw {
-    double linear = 150.0;     ///< predict::Likeness::linear
-    double squared_bend = 1.0; ///< predict::Likeness::squared_bend
-    double step = 1.0;         ///< D: the noise of all that is known
-    std::uint32_t growth = 5;  ///< batches grow by so many eighths of the components known; more is faster
+    double linear = 150.0;         ///< predict::Likeness::linear
+    double squared_bend = 1.0;     ///< predict::Likeness::squared_bend
+    double step = 1.0;             ///< D: the noise of all that is known
+    std::uint32_t growth = 5;      ///< batches grow by so many eighths of the components known; more is faster
+    std::uint32_t neighbours = 16; ///< of each vertex, 1 .. Interpolation::most; fewer are faster
 };
 
 /// Orders the vertices of a surface by their first components, and weighs their neighbours by all that are known.
@@ -67,8 +68,6 @@ public:
     std::vector<Weights> weights(Level& level, MatrixView<const double> C, std::size_t known) const;
 
 private:
-    static constexpr std::size_t candidates = 24; ///< nearest by the first components; the best 16 by all are used
-
     struct Task {
         Level& level;
         MatrixView<const double> C;

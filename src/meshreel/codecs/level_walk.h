@@ -35,14 +35,13 @@ struct Taper {
 /// Codes components `first` .. K-1 level after level of a CoarseToFine order. Within a level components come in batches;
 /// before each batch every vertex' weights are found anew from all components known of it and of its neighbours. Vertices
 /// of a level do not depend on each other, so weights are found in parallel.
-/// @cost O(W K 16) and O(W 16^2 K) for the weights.
+/// @cost O(W K n) and O(W n^2 K) for the weights, of n neighbours.
 template <class Core>
 class LevelWalk {
 public:
     LevelWalk(Core& core, const Interpolation& interpolation, Taper taper)
         : core_(core), interpolation_(interpolation), taper_(taper),
-          levels_({near_columns * own_columns, rows * row_columns, near_columns * depths, fine_columns, seen_contexts},
-                  judges)
+          levels_({near_columns * own_columns, rows * row_columns, seen_contexts}, judges)
     {
     }
 
@@ -61,8 +60,8 @@ public:
         for (std::size_t l = 0; l < order.ends.size() && taken.size() < ends.size(); ++l) {
             const std::size_t end = order.ends[l];
             const double known = static_cast<double>(begin) / static_cast<double>(C.rows);
-            Level level{interpolation_.level(std::span(order.order).subspan(begin, end - begin)), depth_of(l),
-                        taper_.at(known), C, L};
+            Level level{interpolation_.level(std::span(order.order).subspan(begin, end - begin)), taper_.at(known), C,
+                        L};
             for (std::size_t k = first; k < C.cols && !ended(core_);) {
                 const std::size_t next = std::min(C.cols, interpolation_.batch_end(k));
                 code_batch(level, k, next);
@@ -76,26 +75,18 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t near_columns = 22, own_columns = 18, rows = 96, row_columns = 14, depths = 16,
-                                   fine_columns = 46, seen_contexts = 243, judges = 12;
+    static constexpr std::uint32_t near_columns = 22, own_columns = 18, rows = 96, row_columns = 14,
+                                   seen_contexts = 243, judges = 12;
 
     struct Level {
         Interpolation::Level near;
-        std::uint32_t depth;
         coding::Quantiser quantiser;
         MatrixView<double> C;
         MatrixView<std::uint8_t> L;
     };
     struct Place {
         std::size_t v, k;
-        std::uint32_t depth;
     };
-
-    /// A depth for every doubling of the resolution, 1.1^7.27.
-    static std::uint32_t depth_of(std::size_t level)
-    {
-        return static_cast<std::uint32_t>(std::min<std::size_t>(level / 7, depths - 1));
-    }
 
     void code_batch(Level& level, std::size_t first, std::size_t last)
     {
@@ -104,25 +95,22 @@ private:
         for (std::size_t i = 0; i < weights.size() && !ended(core_); ++i) {
             const std::size_t v = level.near.vertices[i];
             weights[i].apply(level.C, first, guess_);
-            for (std::size_t k = first; k < last; ++k)
-                code_value(weights[i], {v, k, level.depth}, level, guess_[k - first]);
+            for (std::size_t k = first; k < last; ++k) code_value(weights[i], {v, k}, level, guess_[k - first]);
         }
     }
 
     void code_value(const Interpolation::Weights& near, const Place& place, const Level& level, double guess)
     {
-        const auto [v, k, depth] = place;
+        const auto [v, k] = place;
         double sizes = 0;
         for (std::size_t i = 0; i < near.count; ++i) sizes += shares[i] * level.L(near.vertices[i], k);
         const double nearby = near.count > 0 ? sizes / share_sums[near.count] : 4.0;
         double &value = level.C(v, k), &own = own_[v], &usual = usual_[k];
         const double expected = 0.45 * nearby + 0.3 * own + 0.25 * usual;
         const auto row = static_cast<std::uint32_t>(std::min<std::size_t>(k, rows - 1));
-        const coding::MixedLevels<5>::Places places = {
+        const coding::MixedLevels<3>::Places places = {
             coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
-            row * row_columns + coding::octave_column<0>(expected, row_columns),
-            coding::octave_column<1>(usual, near_columns) * depths + depth,
-            coding::octave_column<2>(expected, fine_columns), seen(near, place, level.L)};
+            row * row_columns + coding::octave_column<0>(expected, row_columns), seen(near, place, level.L)};
         const std::uint32_t judge = coding::octave_column<0>(expected, judges);
         const std::int32_t wanted = Core::writes ? levels_.choose(places, judge, level.quantiser, value - guess) : 0;
         const std::int32_t coded = levels_.code(core_, places, judge, wanted);
@@ -158,7 +146,7 @@ private:
     Core& core_;
     const Interpolation& interpolation_;
     Taper taper_;
-    coding::MixedLevels<5> levels_;
+    coding::MixedLevels<3> levels_;
     std::vector<double> usual_; ///< [K] how large the levels of a component have been of late
     std::vector<double> own_;   ///< [W] and those of a vertex
     std::vector<double> guess_;

@@ -27,7 +27,7 @@ class PoseWalk {
 public:
     PoseWalk(Core& core, coding::Quantiser quantiser)
         : core_(core), quantiser_(quantiser),
-          levels_({near_columns * own_columns, rows * row_columns, near_columns * ages, fine_columns}, 1)
+          levels_({near_columns * own_columns, near_columns * ages, fine_columns}, 1)
     {
     }
 
@@ -44,8 +44,7 @@ public:
 
 private:
     static constexpr std::size_t longest_window = 1024, neighbours = 8;
-    static constexpr std::uint32_t near_columns = 26, own_columns = 20, rows = 64, row_columns = 16, ages = 12,
-                                   fine_columns = 52;
+    static constexpr std::uint32_t near_columns = 26, own_columns = 20, ages = 12, fine_columns = 52;
 
     void code_window(MatrixView<double> Y)
     {
@@ -94,12 +93,10 @@ private:
         double& value = Y(place.f, place.c);
         double &own = own_[place.f], &usual = usual_[place.c];
         const double expected = 0.4 * nearby + 0.35 * own + 0.25 * usual;
-        const auto row = static_cast<std::uint32_t>(std::min<std::size_t>(place.c / 3, rows - 1));
-        const coding::MixedLevels<4>::Places places = {
-            coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
-            row * row_columns + coding::octave_column<0>(expected, row_columns),
-            coding::octave_column<1>(usual, near_columns) * ages + place.age,
-            coding::octave_column<2>(expected, fine_columns)};
+        const coding::MixedLevels<3>::Places places = {coding::octave_column<1>(nearby, near_columns) * own_columns +
+                                                           coding::octave_column<1>(own, own_columns),
+                                                       coding::octave_column<1>(usual, near_columns) * ages + place.age,
+                                                       coding::octave_column<2>(expected, fine_columns)};
         const std::int32_t wanted = Core::writes ? levels_.choose(places, 0, quantiser_, value - guess) : 0;
         const std::int32_t level = levels_.code(core_, places, 0, wanted);
         value = bounded(guess + quantiser_.value(level));
@@ -111,7 +108,7 @@ private:
 
     Core& core_;
     coding::Quantiser quantiser_;
-    coding::MixedLevels<4> levels_;
+    coding::MixedLevels<3> levels_;
     Matrix<std::uint8_t> levels_seen_; ///< magnitudes [F x 3(K+1)], up to 255
     std::vector<double> own_;          ///< [F] how large the levels of a frame have been of late
     std::vector<double> usual_;        ///< [3(K+1)] and those of a column

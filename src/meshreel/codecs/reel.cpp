@@ -55,6 +55,7 @@ struct ReelPayload {
                   "2^-8: to which power of their share of vertices coarse levels are finer");
         io.f64("linear", law.linear, {0.0, 1e6}, "trust in motions known already against smoothness");
         io.f64("squared_bend", law.squared_bend, {1e-6, 1e6}, "c^2 of the multiquadric");
+        io.varint("neighbours", law.neighbours, {1, Interpolation::most}, "vertices that one is interpolated from");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
         io.varint("basis_size", basis_size, {0, most_part_bytes}, "bytes of basis_bits");
         io.varint("first_size", first_size, {0, most_part_bytes}, "bytes of first_bits");
@@ -177,7 +178,8 @@ private:
         coded.head.first_step = settings.first_ratio * coded.head.step;
         coded.head.basis_step = settings.basis_ratio * coded.head.step;
         coded.head.taper = static_cast<std::uint32_t>(std::lround(settings.taper * taper_one));
-        coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth};
+        coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth,
+                          settings.neighbours};
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);

@@ -28,10 +28,9 @@ public:
     {
         Features gain{};
         double power = memory_;
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = 0; j < n; ++j) gain[i] += P_[i][j] * u[j];
-            power += gain[i] * u[i];
-        }
+        for (std::size_t j = 0; j < n; ++j) // P is symmetric: no sum waits for itself
+            for (std::size_t i = 0; i < n; ++i) gain[i] += P_[j][i] * u[j];
+        for (std::size_t i = 0; i < n; ++i) power += gain[i] * u[i];
         const double scale = 1.0 / power;
         double largest = 0;
         for (std::size_t i = 0; i < n; ++i) {
