@@ -94,6 +94,15 @@ Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
     return animation;
 }
 
+/// For a level, the beginning of a file is enough.
+Result<StreamReader> open_parts(ByteSource& reel, const DecodeOptions& options)
+{
+    Result<StreamReader> head = StreamReader::open_head(reel, options.limits);
+    if (head.ok() || options.level == 0) return head;
+    Result<StreamReader> beginning = StreamReader::open_beginning(reel, options.limits);
+    return beginning.ok() ? std::move(beginning) : std::move(head);
+}
+
 /// The names of all that is carried beside the positions, without unpacking it.
 Status read_names(const StreamReader& file, Info& info)
 {
@@ -125,7 +134,7 @@ Result<Animation> decode(ByteView reel, const DecodeOptions& options)
 
 Result<Animation> decode(ByteSource& reel, const DecodeOptions& options)
 {
-    MESHREEL_TRY(const StreamReader head, StreamReader::open_head(reel, options.limits));
+    MESHREEL_TRY(const StreamReader head, open_parts(reel, options));
     MESHREEL_TRY(const Header header, container::read_header(head));
     container::SegmentFetcher segments(reel, head, header);
     if (options.level > 0) {

@@ -92,7 +92,8 @@ Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options = {});
 Result<Animation> decode(ByteView reel, const DecodeOptions& options = {});
 
 /// The same from a file of which only what is needed is fetched: index and head, and of the segments those that hold a
-/// frame asked for. Unlike decode(ByteView) it does not verify the others. @fails as decode; io.
+/// frame asked for. Unlike decode(ByteView) it does not verify the others. For a level above 0 the file may have been cut
+/// off behind what the level needs: after LevelInfo::bytes, if it has one segment. @fails as decode; io.
 Result<Animation> decode(ByteSource& reel, const DecodeOptions& options = {});
 
 /// The animation numbered as Order::free would give it back: to compare a decoded file with its original.

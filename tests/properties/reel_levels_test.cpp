@@ -122,6 +122,23 @@ TEST(ReelLevels, NeedOnlyTheBeginningOfASegment)
     }
 }
 
+TEST(ReelLevels, ComeOutOfAFileThatHasNotArrivedYet)
+{
+    const Bytes reel = reel_of(jelly());
+    const std::vector<std::uint64_t> bytes = info(reel)->level_bytes;
+    for (const std::uint32_t level : {1u, 2u}) {
+        MemorySource enough(ByteView(reel).first(bytes[level]));
+        const auto coarse = decode(enough, {.level = level});
+        ASSERT_TRUE(coarse.ok()) << coarse.error().sentence();
+        EXPECT_EQ(coarse->positions, decode(reel, {.level = level})->positions);
+        EXPECT_FALSE(decode(enough, {.level = level - 1}).ok());
+    }
+    for (std::size_t size = 0; size < bytes[2] - 100; size += 7) { // index and tail, which are not needed, are less
+        MemorySource part(ByteView(reel).first(size));
+        ASSERT_FALSE(decode(part, {.level = 2}).ok()) << size;
+    }
+}
+
 TEST(ReelLevels, AreTheSameOverAllSegments)
 {
     const Animation original = jelly();

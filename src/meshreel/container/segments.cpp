@@ -56,7 +56,7 @@ Result<Segment> SegmentFetcher::look(std::size_t s)
     const auto known = looked_.find(s);
     if (known != looked_.end()) return known->second;
     const Index::Entry& entry = entries_[s];
-    const auto size = static_cast<std::size_t>(std::min(longest_segment_head, chunk_size(entry.size)));
+    const auto size = static_cast<std::size_t>(std::min(longest_segment_head, there(entry)));
     MESHREEL_TRY(const Bytes bytes, file_.fetch(entry.offset, size));
     MESHREEL_TRY(Segment segment, beginning_of(entry, bytes, head_.limits()));
     segment.payload = {};
@@ -64,9 +64,16 @@ Result<Segment> SegmentFetcher::look(std::size_t s)
     return looked_.emplace(s, segment).first->second;
 }
 
+/// Bytes of a chunk that the file has.
+std::uint64_t SegmentFetcher::there(const Index::Entry& entry) const
+{
+    return std::min(chunk_size(entry.size), file_.size() - entry.offset);
+}
+
 Result<Segment> SegmentFetcher::fetch(std::size_t s)
 {
     const std::uint64_t size = chunk_size(entries_[s].size);
+    if (size > there(entries_[s])) return bad_input("the file ends too early", "SEGM", at_byte(file_.size()));
     MESHREEL_CHECK(within(size, head_.limits().max_memory, "SEGM"));
     MESHREEL_TRY(bytes_, file_.fetch(entries_[s].offset, static_cast<std::size_t>(size)));
     MESHREEL_TRY(const Chunk chunk, read_entry(bytes_, entries_[s]));
@@ -77,7 +84,7 @@ Result<Segment> SegmentFetcher::fetch(std::size_t s)
 Result<Segment> SegmentFetcher::fetch_beginning(std::size_t s)
 {
     const Index::Entry& entry = entries_[s];
-    const std::uint64_t all = chunk_size(entry.size) - 4; // without the checksum
+    const std::uint64_t all = std::min(chunk_size(entry.size) - 4, there(entry)); // without the checksum
     auto size = static_cast<std::size_t>(std::min(longest_segment_head + payload_head, all));
     MESHREEL_TRY(bytes_, file_.fetch(entry.offset, size));
     MESHREEL_TRY(const Segment head, beginning_of(entry, bytes_, head_.limits()));

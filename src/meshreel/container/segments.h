@@ -33,7 +33,7 @@ private:
 /// look. The file and its head must outlive it.
 class SegmentFetcher : public SegmentSource {
 public:
-    /// head: of StreamReader::open_head(file).
+    /// head: of StreamReader::open_head(file), or open_beginning.
     SegmentFetcher(ByteSource& file, const StreamReader& head, const Header& header);
     Result<Segment> holding(std::uint32_t frame) override;
 
@@ -46,6 +46,7 @@ private:
     Result<Segment> look(std::size_t s);
     Result<Segment> fetch(std::size_t s);
     Result<Segment> fetch_beginning(std::size_t s);
+    std::uint64_t there(const Index::Entry& entry) const;
 
     ByteSource& file_;
     const StreamReader& head_;

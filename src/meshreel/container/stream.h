@@ -156,6 +156,10 @@ public:
     /// chunk verified. chunks() then has no SEGM. @fails as above; io.
     static Result<StreamReader> open_head(ByteSource& file, const DecodeLimits& limits = {});
 
+    /// The same from a file that may have been cut off within a segment, or is still on its way: on the word of the chunks
+    /// themselves, one after the other. index() has what is there, the segment that was cut too.
+    static Result<StreamReader> open_beginning(ByteSource& file, const DecodeLimits& limits = {});
+
     StreamReader(const StreamReader&) = delete; // views into itself
     StreamReader(StreamReader&&) = default;
     StreamReader& operator=(StreamReader&&) = default;
@@ -191,6 +195,8 @@ private:
     Status check_counts() const;
     Status check_index();
     Status fetch_index(ByteSource& file);
+    Status collect_index(ByteSource& file);
+    Status fetch_preamble(ByteSource& file);
     Status fetch_head(ByteSource& file);
 
     ByteView file_;

@@ -42,14 +42,55 @@ Result<StreamReader> StreamReader::open_head(ByteSource& file, const DecodeLimit
 {
     StreamReader reader;
     reader.limits_ = limits;
-    MESHREEL_TRY(const Bytes first,
-                 file.fetch(0, static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), Preamble::size))));
-    MESHREEL_TRY(reader.preamble_, read_preamble(first));
+    MESHREEL_CHECK(reader.fetch_preamble(file));
     MESHREEL_CHECK(reader.fetch_index(file));
     MESHREEL_CHECK(reader.check_known());
     MESHREEL_CHECK(reader.check_counts());
     MESHREEL_CHECK(reader.fetch_head(file));
     return reader;
+}
+
+Result<StreamReader> StreamReader::open_beginning(ByteSource& file, const DecodeLimits& limits)
+{
+    StreamReader reader;
+    reader.limits_ = limits;
+    MESHREEL_CHECK(reader.fetch_preamble(file));
+    MESHREEL_CHECK(reader.collect_index(file));
+    MESHREEL_CHECK(reader.check_known());
+    MESHREEL_CHECK(reader.check_counts());
+    MESHREEL_CHECK(reader.fetch_head(file));
+    return reader;
+}
+
+Status StreamReader::fetch_preamble(ByteSource& file)
+{
+    MESHREEL_TRY(const Bytes first,
+                 file.fetch(0, static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), Preamble::size))));
+    MESHREEL_TRY(preamble_, read_preamble(first));
+    return Ok{};
+}
+
+/// Goes from chunk to chunk, up to the index or the end of what is there.
+Status StreamReader::collect_index(ByteSource& file)
+{
+    constexpr std::uint64_t longest_head = 4 + 10;
+    for (std::uint64_t at = Preamble::size; at < file.size();) {
+        if (index_.chunks.size() >= limits_.max_memory / sizeof(Index::Entry))
+            return bad_input("too many chunks", "chunk", at_byte(at));
+        MESHREEL_TRY(const Bytes bytes,
+                     file.fetch(at, static_cast<std::size_t>(std::min(longest_head, file.size() - at))));
+        Reader reader({bytes, at, "chunk"}, limits_);
+        ChunkHead head;
+        head.fields(reader);
+        if (reader.failed() || head.type == type::indx) break;
+        const bool cut = head.size > file.size() || chunk_size(head.size) > file.size() - at;
+        if (cut && head.type != type::segm) break;
+        MESHREEL_CHECK(within(head.size, limits_.max_memory, name_of(head.type)));
+        index_.chunks.push_back({head.type, at, head.size});
+        if (cut) break;
+        at += chunk_size(head.size);
+    }
+    return Ok{};
 }
 
 Status StreamReader::fetch_index(ByteSource& file)
