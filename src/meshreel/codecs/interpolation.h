@@ -19,7 +19,7 @@ struct InterpolationLaw {
     double linear = 150.0;         ///< predict::Likeness::linear
     double squared_bend = 1.0;     ///< predict::Likeness::squared_bend
     double step = 1.0;             ///< D: the noise of all that is known
-    std::uint32_t growth = 5;      ///< batches grow by so many eighths of the components known; more is faster
+    std::uint32_t growth = 5;      ///< batches grow by so many eighths of the components known, and more: batch_end
     std::uint32_t neighbours = 16; ///< of each vertex, 1 .. Interpolation::most; fewer are faster
 };
 
@@ -33,8 +33,11 @@ public:
 
     const CoarseToFine& order() const { return order_; }
 
-    /// Where a batch of components that begins at k ends.
-    std::size_t batch_end(std::size_t k) const { return k + std::max<std::size_t>(1, k * law_.growth / 8); }
+    /// Where a batch of components that begins at k ends. The more are known, the less a few more tell.
+    std::size_t batch_end(std::size_t k) const
+    {
+        return k + std::max<std::size_t>(1, k * law_.growth / 8 + k * k / 64);
+    }
 
     struct Weights {
         std::size_t count = 0;

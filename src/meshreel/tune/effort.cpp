@@ -19,11 +19,11 @@ constexpr std::array<EffortRow, most_effort> effort_rows{{
     {16, 0, 1},
     {12, 0, 1},
     {8, 0, 1},
-    {8, 1, 1},
-    {5, 3, 1},
-    {5, 4, 1},
-    {4, 5, 1},
-    {3, 5, 3},
+    {4, 1, 1},
+    {4, 3, 1},
+    {3, 4, 1},
+    {3, 5, 1},
+    {2, 5, 3},
 }};
 
 } // namespace
@@ -33,10 +33,10 @@ Plan plan_of(int effort, Tune tune)
     const EffortRow& row = effort_rows[static_cast<std::size_t>(effort - least_effort)];
     Plan plan;
     // Errors of the basis are smooth over the surface, and so are components left out: STED hardly sees them.
-    plan.start.truncation = tune == Tune::sted ? 0.9 : 0.4;
+    plan.start.truncation = tune == Tune::sted ? 0.9 : 0.36;
     plan.start.basis_ratio = tune == Tune::sted ? 2.8 : 1.4;
-    plan.start.first_ratio = tune == Tune::sted ? 0.45 : 1.0;
-    plan.start.bit_price = 0.14;
+    plan.start.first_ratio = tune == Tune::sted ? 0.35 : 1.0;
+    plan.start.bit_price = tune == Tune::sted ? 0.2 : 0.14;
     plan.start.growth = row.growth;
     plan.knobs = {{&codecs::Settings::linear, 3.0, 10.0, 4000.0}, // the one whose best differs most between motions
                   {&codecs::Settings::basis_ratio, 1.3, 0.2, tune == Tune::sted ? 2.8 : 2.0},
