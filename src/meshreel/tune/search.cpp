@@ -197,7 +197,7 @@ private:
     /// From an attempt somewhere to a verified one just below the limit.
     Result<Attempt> land(Attempt attempt, Line line)
     {
-        constexpr int enough_attempts = 8, most_attempts = 20; // enough where one keeps the limit
+        constexpr int enough_attempts = 12, most_attempts = 20; // enough where one keeps the limit
         const double usual_truncation = attempt.settings.truncation;
         Landing landing;
         for (int i = 1;; ++i) {
