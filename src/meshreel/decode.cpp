@@ -43,17 +43,17 @@ Result<std::uint64_t> bytes_of_level(const codecs::Codec& codec, const container
 }
 
 /// The file's level that the options ask for.
-Result<Level> level_asked_for(const Opening& reel, const codecs::Codec& codec, const connectivity::Topology& topology,
+Result<Level> level_asked_for(const Opening& reel, const codecs::Codec& codec, const LevelInput& input,
                               const DecodeOptions& options)
 {
     MESHREEL_TRY(const container::Segment first, reel.segments.holding(0));
     return level_of(codec,
                     {{first.payload, first.payload_offset, "SEGM"},
-                     topology.surface,
+                     input.topology.surface,
                      first.frame_count,
                      options.limits,
                      options.threads},
-                    topology, options.level);
+                    input, options.level);
 }
 
 Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
@@ -71,23 +71,22 @@ Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
     MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
     MESHREEL_CHECK(check_level(*codec, options.level));
     MESHREEL_TRY(connectivity::Topology topology, codecs::read_topology(file, header, options.base));
+    container::Budget budget(options.limits.max_memory -
+                             std::min(options.limits.max_memory, 12 * header.vertex_count * shown.mixes.size()));
+    MESHREEL_TRY(animation.appearance,
+                 container::read_appearance(file, {header.vertex_count, topology.triangles}, budget));
     std::optional<Level> level;
     if (options.level > 0) {
-        MESHREEL_TRY(level, level_asked_for(reel, *codec, topology, options));
+        MESHREEL_TRY(level, level_asked_for(reel, *codec, {topology, animation.appearance}, options));
     }
     MESHREEL_TRY(Matrix<float> frames,
                  pose_frames({*codec, segments, topology.surface, options, level ? &level->wanted : nullptr}, shown));
     animation.positions = level ? std::move(frames.values) : spread(frames, topology.surface_of);
-    animation.triangles = std::move(topology.triangles);
+    animation.triangles = std::move(level ? level->triangles : topology.triangles);
     animation.times_s = std::move(shown.times_s);
     animation.meta.fps = shown.fps;
-    container::Budget budget(options.limits.max_memory -
-                             std::min(options.limits.max_memory, animation.positions.size() * 4));
-    MESHREEL_TRY(animation.appearance,
-                 container::read_appearance(file, {animation.vertex_count, animation.triangles}, budget));
     if (level) {
         animation.vertex_count = static_cast<std::uint32_t>(level->wanted.size());
-        animation.triangles = std::move(level->triangles);
         animation.appearance = appearance_of(*level, animation.appearance);
     }
     MESHREEL_CHECK(validate(animation));

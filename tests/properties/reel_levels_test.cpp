@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "meshreel/mesh/measures.h"
@@ -193,6 +194,24 @@ TEST(ReelLevels, CarryWhatBelongsToTheirVerticesAndTriangles)
         EXPECT_EQ(kept.values[2 * i] + 256 * kept.values[2 * i + 1], numbers[i]);
     EXPECT_EQ(coarse.appearance.find("material")->indices.size(), coarse.triangles.size());
     EXPECT_EQ(coarse.appearance.materials, original.appearance.materials);
+}
+
+TEST(ReelLevels, KeepTheirSeams)
+{
+    Animation original = jelly();
+    Attribute uv{"uv0", Domain::corner, Scalar::u8, 1, false, {1, 2}, {}}; // one value on each side of a plane
+    for (const Triangle& t : original.triangles)
+        for (std::size_t i = 0; i < 3; ++i) uv.indices.push_back(original.frame(0)[3ul * t[0]] < 0 ? 0 : 1);
+    original.appearance.attributes = {uv};
+    const Animation coarse = *decode(reel_of(original), {.level = 1});
+    const Attribute& kept = *coarse.appearance.find("uv0");
+    std::array<std::size_t, 2> wholly{};
+    for (std::size_t t = 0; t < coarse.triangles.size(); ++t) {
+        const std::uint32_t value = kept.indices[3 * t];
+        if (value == kept.indices[3 * t + 1] && value == kept.indices[3 * t + 2]) ++wholly[value];
+    }
+    EXPECT_EQ(wholly[0] + wholly[1], coarse.triangles.size()); // no triangle reaches across the seam
+    EXPECT_GT(std::min(wholly[0], wholly[1]), coarse.triangles.size() / 4);
 }
 
 TEST(ReelLevels, OfWhateverShapeAreValid)
