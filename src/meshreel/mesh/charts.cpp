@@ -46,21 +46,21 @@ void refine(std::vector<std::uint32_t>& wedges, std::span<const std::uint32_t> n
 }
 
 /// An edge from its lower to its higher vertex, as one triangle has it.
-struct Side {
+struct ChartSide {
     std::array<std::uint32_t, 4> vertices_and_wedges; ///< low, high, and the wedges there
     std::uint32_t triangle;
 };
 
-std::vector<Side> sides_of(std::span<const Triangle> triangles, std::span<const std::uint32_t> wedges)
+std::vector<ChartSide> sides_of(std::span<const Triangle> triangles, std::span<const std::uint32_t> wedges)
 {
-    std::vector<Side> sides;
+    std::vector<ChartSide> sides;
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i) {
             std::size_t a = i, b = (i + 1) % 3;
             if (triangles[t][b] < triangles[t][a]) std::swap(a, b);
             sides.push_back({{triangles[t][a], triangles[t][b], wedges[3ul * t + a], wedges[3ul * t + b]}, t});
         }
-    std::ranges::sort(sides, [](const Side& a, const Side& b) {
+    std::ranges::sort(sides, [](const ChartSide& a, const ChartSide& b) {
         return std::tie(a.vertices_and_wedges, a.triangle) < std::tie(b.vertices_and_wedges, b.triangle);
     });
     return sides;
@@ -85,7 +85,7 @@ std::vector<std::uint32_t> charts_of(std::span<const Triangle> triangles, std::s
         while (chart[t] != t) t = chart[t] = chart[chart[t]];
         return t;
     };
-    const std::vector<Side> sides = sides_of(triangles, wedges);
+    const std::vector<ChartSide> sides = sides_of(triangles, wedges);
     for (std::size_t i = 1; i < sides.size(); ++i) {
         if (sides[i].vertices_and_wedges != sides[i - 1].vertices_and_wedges) continue;
         const std::uint32_t a = root(sides[i].triangle), b = root(sides[i - 1].triangle);
