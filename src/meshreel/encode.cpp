@@ -1,6 +1,7 @@
 /// The way into a file: weld, trace, search for the quality asked for, assemble, decode again and measure.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -24,11 +25,10 @@ namespace meshreel {
 
 namespace {
 
-constexpr std::size_t usual_segment = 1000; // frames at most; the PCA grows with the cube of a segment's length
-constexpr std::uint32_t fast_growth = 12;   // with fewer neighbours 2 to 8 % more bits; see docs/effort.md
+constexpr std::uint32_t fast_growth = 12; // with fewer neighbours 2 to 8 % more bits; see docs/effort.md
 constexpr std::uint32_t fast_neighbours = 10;
-constexpr double fine_truncation = 0.08;    // whatever component is left out, some vertex misses it
-constexpr std::size_t usual_bases = 256;    // enough for nearly every target; more are prepared when it is not
+constexpr double fine_truncation = 0.08; // whatever component is left out, some vertex misses it
+constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
 {
@@ -74,7 +74,7 @@ public:
         };
         codecs::Settings start = common(plan_.start);
         if (limits_distance()) start.truncation = fine_truncation;
-        start.step = likely_step(start);
+        start.step = likely_step(start, segments_.spectra());
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
         if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
         return *std::move(best);
@@ -86,8 +86,7 @@ private:
     Encoding(FrameSource& source, const EncodeOptions& options, const codecs::Codec& codec,
              connectivity::Encoded topology)
         : source_(source), options_(options), codec_(codec), topology_(std::move(topology)),
-          segments_({source, topology_, codec, options.threads},
-                    equal_segments(source.frame_count(), options.segment == 0 ? usual_segment : options.segment))
+          segments_({source, topology_, codec, options.threads})
     {
     }
 
@@ -104,19 +103,38 @@ private:
         std::vector<float> coded(3ul * surface().vertex_count);
         reorder_frame(first.row(0), topology_.original_of, coded);
         mean_edge_ = tune::mean_edge(coded, surface().triangles);
-        MESHREEL_CHECK(segments_.prepare(usual_bases));
         allowed_ = allowed_by(options_.quality, still(), diagonal());
+        plan_ = tune::plan_of(options_.effort, tune());
+        MESHREEL_CHECK(cut());
+        MESHREEL_CHECK(segments_.prepare(usual_bases));
         if (std::isfinite(allowed_.kg) && norm() == 0) // every frame a point: nothing that KG could be a percentage of
             allowed_.max_error = std::exchange(allowed_.kg, no_limit) / 100 * diagonal();
-        plan_ = tune::plan_of(options_.effort, tune());
+        return Ok{};
+    }
+
+    /// As asked for, or where it pays.
+    Status cut()
+    {
+        const std::size_t F = source_.frame_count(), longest = longest_segment(surface().vertex_count);
+        segments_.cut(equal_segments(F, options_.segment == 0 ? longest : options_.segment));
+        const bool no_step = options_.quality.bases && !options_.quality.step;
+        if (options_.segment != 0 || codec_.exact() || no_step) return Ok{};
+        MESHREEL_TRY(const SegmentSample sample, SegmentSample::take(source_, topology_.original_of));
+        codecs::Settings settings = common(plan_.start);
+        settings.step = options_.quality.step ? *options_.quality.step * diagonal()
+                                              : likely_step(settings, std::array{sample.spectrum(0, F)});
+        const SegmentCosts costs(sample, {settings.step, settings.basis_ratio});
+        segments_.cut(paying_segments(F, longest, costs));
         return Ok{};
     }
 
     /// |A - E(A)| of (5.2), over the vertices that the codec sees.
-    double norm() const
+    double norm() const { return norm_of(segments_.spectra()); }
+
+    static double norm_of(std::span<const Spectrum> spectra)
     {
         double energy = 0;
-        for (std::size_t s = 0; s < segments_.count(); ++s) energy += segments_.energy(s);
+        for (const Spectrum& spectrum : spectra) energy += spectrum.energy;
         return std::sqrt(energy);
     }
 
@@ -252,33 +270,33 @@ private:
     }
 
     /// The step at which the error should be about what is allowed.
-    double likely_step(const codecs::Settings& settings) const
+    double likely_step(const codecs::Settings& settings, std::span<const Spectrum> spectra) const
     {
         constexpr double kg_of_sizes = 0.3, peak = 7.0, smoothness = 5.0; // guesses: an attempt corrects them
-        double rms = limits_size() ? kg_of_sizes / 100 * norm() / std::sqrt(points()) : no_limit;
-        rms = std::min({rms, allowed_.kg / 100 * norm() / std::sqrt(points()), allowed_.rms, allowed_.max_error / peak});
-        if (std::isfinite(allowed_.sted))
-            rms = std::min(rms, smoothness * allowed_.sted * mean_edge_);
+        const double size = norm_of(spectra);
+        double rms = limits_size() ? kg_of_sizes / 100 * size / std::sqrt(points()) : no_limit;
+        rms = std::min({rms, allowed_.kg / 100 * size / std::sqrt(points()), allowed_.rms, allowed_.max_error / peak});
+        if (std::isfinite(allowed_.sted)) rms = std::min(rms, smoothness * allowed_.sted * mean_edge_);
         if (!(rms > 0)) return diagonal() * 1e-4;
         double fine = std::log(1e-9 * diagonal()), coarse = std::log(diagonal());
         for (int i = 0; i < 40; ++i) {
             const double middle = 0.5 * (fine + coarse);
-            (likely_error(settings, std::exp(middle)) < rms * rms * points() ? fine : coarse) = middle;
+            (likely_error(settings, spectra, std::exp(middle)) < rms * rms * points() ? fine : coarse) = middle;
         }
         return std::exp(fine);
     }
 
     /// The squared error at a step: of coefficients and basis, less than D^2 / 12 a value as most levels are 0; and what
     /// the components left out hold, of those prepared.
-    double likely_error(const codecs::Settings& settings, double step) const
+    double likely_error(const codecs::Settings& settings, std::span<const Spectrum> spectra, double step) const
     {
         const double W = surface().vertex_count, basis = settings.basis_ratio * settings.basis_ratio;
         double error = 0;
-        for (std::size_t s = 0; s < segments_.count(); ++s)
-            for (double value : segments_.singular_values(s))
+        for (const Spectrum& spectrum : spectra)
+            for (double value : spectrum.singular_values)
                 error += value < settings.truncation * step * std::sqrt(W)
                              ? value * value
-                             : (W + 3 * static_cast<double>(segments_.span(s).count) * basis) * step * step / 20;
+                             : (W + 3 * static_cast<double>(spectrum.frame_count) * basis) * step * step / 20;
         return error;
     }
 
@@ -303,9 +321,10 @@ private:
             file, renumbered ? reordered(appearance, {topology_.vertex_of, topology_.corner_of}) : appearance,
             {still().vertex_count, topology_.topology.triangles}));
         for (std::size_t s = 0; s < segments_.count(); ++s)
-            MESHREEL_CHECK(file.add(container::type::segm,
-                                    container::Segment{static_cast<std::uint32_t>(segments_.span(s).first),
-                                                       static_cast<std::uint32_t>(segments_.span(s).count), payloads[s]}));
+            MESHREEL_CHECK(
+                file.add(container::type::segm,
+                         container::Segment{static_cast<std::uint32_t>(segments_.span(s).first),
+                                            static_cast<std::uint32_t>(segments_.span(s).count), payloads[s]}));
         return std::move(file).finish();
     }
 
@@ -314,9 +333,9 @@ private:
     {
         Encoded encoded;
         MESHREEL_TRY(encoded.bytes, assembled(attempt.payloads));
-        MESHREEL_TRY(const Difference off,
-                     difference(encoded.bytes, source_,
-                                {topology_.vertex_of, options_.base, wants_sted(), options_.threads}));
+        MESHREEL_TRY(
+            const Difference off,
+            difference(encoded.bytes, source_, {topology_.vertex_of, options_.base, wants_sted(), options_.threads}));
         encoded.kg = off.kg;
         encoded.max_error = std::sqrt(off.vertex_error.largest_square);
         encoded.psnr = 10 * std::log10(diagonal() * diagonal() / off.vertex_error.mean_square); // (5.1)
@@ -334,7 +353,7 @@ private:
     connectivity::Encoded topology_;
     PreparedSegments segments_;
     double diagonal_ = 1.0, mean_edge_ = 0.0; ///< of the first frame
-    std::optional<double> around_;    ///< bytes of a file that are not payload
+    std::optional<double> around_;            ///< bytes of a file that are not payload
     Measures allowed_;
     tune::Plan plan_;
 };

@@ -15,10 +15,13 @@ constexpr std::size_t most_kept_bytes = 64 << 20; ///< of preparations
 
 } // namespace
 
-PreparedSegments::PreparedSegments(const SegmentInput& input, std::vector<FrameSpan> spans)
-    : input_(input), spans_(std::move(spans)), energies_(spans_.size()), singular_values_(spans_.size()),
-      encoders_(spans_.size()), loose_(no_segment), held_(no_segment)
+PreparedSegments::PreparedSegments(const SegmentInput& input) : input_(input), loose_(no_segment), held_(no_segment) {}
+
+void PreparedSegments::cut(std::vector<FrameSpan> spans)
 {
+    spans_ = std::move(spans);
+    spectra_.resize(count());
+    encoders_.resize(count());
 }
 
 std::size_t PreparedSegments::longest() const
@@ -34,9 +37,8 @@ Status PreparedSegments::prepare(std::size_t max_bases)
     for (auto& encoder : encoders_) encoder.reset();
     for (std::size_t s = 0; s < count(); ++s) {
         MESHREEL_TRY(const Visit visited, visit(s));
-        energies_[s] = visited.encoder.energy();
         const std::span<const double> values = visited.encoder.singular_values();
-        singular_values_[s].assign(values.begin(), values.end());
+        spectra_[s] = {spans_[s].count, visited.encoder.energy(), {values.begin(), values.end()}};
     }
     return Ok{};
 }

@@ -24,9 +24,12 @@ struct SegmentInput {
 /// as it is small beside that; otherwise it is prepared again.
 class PreparedSegments {
 public:
-    PreparedSegments(const SegmentInput& input, std::vector<FrameSpan> spans);
+    explicit PreparedSegments(const SegmentInput& input);
 
-    /// Visits all segments, so that energies and singular values are known. Earlier preparations are forgotten.
+    /// Says where the segments are. Before anything else.
+    void cut(std::vector<FrameSpan> spans);
+
+    /// Visits all segments, so that their spectra are known. Earlier preparations are forgotten.
     /// @fails as the source does.
     Status prepare(std::size_t max_bases);
 
@@ -42,8 +45,7 @@ public:
     FrameSpan span(std::size_t s) const { return spans_[s]; }
     std::size_t longest() const;
     std::size_t max_bases() const { return max_bases_; }
-    double energy(std::size_t s) const { return energies_[s]; }
-    const std::vector<double>& singular_values(std::size_t s) const { return singular_values_[s]; }
+    std::span<const Spectrum> spectra() const { return spectra_; }
 
 private:
     MatrixView<const float> held(std::size_t s) const;
@@ -53,8 +55,7 @@ private:
     SegmentInput input_;
     std::vector<FrameSpan> spans_;
     std::size_t max_bases_ = 0;
-    std::vector<double> energies_;
-    std::vector<std::vector<double>> singular_values_;
+    std::vector<Spectrum> spectra_;
     std::vector<std::unique_ptr<codecs::Encoder>> encoders_; ///< null: to be prepared again
     std::size_t kept_bytes_ = 0, loose_, held_; ///< loose: prepared, but to be dropped with the next; held: in frames_
     std::vector<float> frames_;                 ///< of the segment held; encoders of others look here too

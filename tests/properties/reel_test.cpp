@@ -279,7 +279,7 @@ TEST(Reel, AHigherEffortIsSmaller)
 
 TEST(Reel, CutsLongAnimationsIntoSegments)
 {
-    const Animation animation = *shapes::generate(*shapes::find("wave"), {.vertices = 30, .frames = 1500});
+    const Animation animation = *shapes::generate(*shapes::find("wave"), {.vertices = 30, .frames = 4500});
     const auto encoded = encode(animation);
     ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
     EXPECT_LE(metrics::sted_error(animation, *decode(encoded->bytes)), 0.02);

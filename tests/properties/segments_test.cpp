@@ -51,6 +51,39 @@ private:
     int good_calls_;
 };
 
+/// Frames of one shape, then of another, of the same triangles.
+Animation one_then_other(const Animation& first, const Animation& second)
+{
+    Animation both = first;
+    both.positions.insert(both.positions.end(), second.positions.begin(), second.positions.end());
+    both.times_s = uniform_times(first.frame_count() + second.frame_count(), 25.0);
+    return both;
+}
+
+Animation moving(const char* shape, std::uint32_t frames, std::uint64_t seed)
+{
+    return *shapes::generate(*shapes::find(shape), {.vertices = 400, .frames = frames, .seed = seed});
+}
+
+/// The numbers of frames of a file's segments, as a reader meets them.
+std::vector<std::uint64_t> lengths_of(const Bytes& reel)
+{
+    std::vector<std::uint64_t> lengths;
+    const std::string text = *explain(reel);
+    for (std::size_t at = text.find("SEGM.frame_count"); at != std::string::npos;
+         at = text.find("SEGM.frame_count", at + 1))
+        lengths.push_back(std::stoull(text.substr(text.find_first_of("0123456789", text.find("  ", at + 16)))));
+    return lengths;
+}
+
+Encoded at_kg(const Animation& animation, std::uint32_t segment)
+{
+    EncodeOptions options = in_segments(segment);
+    options.quality = {};
+    options.quality.kg = 0.2;
+    return *encode(animation, options);
+}
+
 } // namespace
 
 TEST(Segments, FramesThatAreReadGiveTheBytesOfFramesInMemory)
@@ -94,4 +127,21 @@ TEST(Segments, AnyReadThatFailsEndsTheEncodingWithItsError)
         ASSERT_FALSE(encoded.ok()) << good;
         EXPECT_EQ(encoded.error().message, "the cable is out");
     }
+}
+
+TEST(Segments, TwoMotionsThatHaveNothingInCommonAreCutWhereOneEnds)
+{
+    const Animation both = one_then_other(moving("wave", 173, 1), moving("swimmer", 120, 1));
+    const Encoded cut = at_kg(both, 0), whole = at_kg(both, one_segment);
+    EXPECT_EQ(lengths_of(cut.bytes), (std::vector<std::uint64_t>{173, 120}));
+    EXPECT_LT(cut.bytes.size(), 0.8 * static_cast<double>(whole.bytes.size()));
+}
+
+TEST(Segments, AMotionThatComesBackIsNotCut)
+{
+    const Animation turn = moving("walker", 150, 1);
+    const Animation again = one_then_other(one_then_other(turn, turn), turn);
+    const Encoded chosen = at_kg(again, 0), cut = at_kg(again, 150);
+    EXPECT_EQ(lengths_of(chosen.bytes), (std::vector<std::uint64_t>{450}));
+    EXPECT_LT(chosen.bytes.size(), 0.7 * static_cast<double>(cut.bytes.size()));
 }
