@@ -103,6 +103,12 @@ Result<Segment> SegmentFetcher::fetch_beginning(std::size_t s)
 
 Result<Segment> SegmentFetcher::holding(std::uint32_t frame)
 {
+    const auto has = [&](const Segment& segment) {
+        return segment.first_frame <= frame && frame - segment.first_frame < segment.frame_count &&
+               segment.frame_count <= frame_count_ - segment.first_frame;
+    };
+    if (last_ && has(*last_)) return *last_;
+    last_.reset();
     std::size_t low = 0, high = entries_.size(); // the segment is in [low, high)
     while (high - low > 1) {
         const std::size_t middle = low + (high - low) / 2;
@@ -110,9 +116,7 @@ Result<Segment> SegmentFetcher::holding(std::uint32_t frame)
         (segment.first_frame <= frame ? low : high) = middle;
     }
     MESHREEL_TRY(const Segment segment, needed_ ? fetch_beginning(low) : fetch(low));
-    const bool there = segment.first_frame <= frame && frame - segment.first_frame < segment.frame_count &&
-                       segment.frame_count <= frame_count_ - segment.first_frame;
-    if (there) return segment;
+    if (has(segment)) return *(last_ = segment);
     return bad_input(concat("frame ", frame, " is not where the segments' numbers lead"), "SEGM.first_frame",
                      at_byte(entries_[low].offset));
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "meshreel/container/chunks.h"
@@ -40,7 +41,11 @@ public:
     /// How many first bytes of a segment's payload are needed, from the first 256 of them, or all.
     using Needed = std::function<Result<std::uint64_t>(const Segment& beginning)>;
     /// From now on fetches no more of a segment than that. What is cut off is not verified by a checksum.
-    void fetch_only(Needed needed) { needed_ = std::move(needed); }
+    void fetch_only(Needed needed)
+    {
+        needed_ = std::move(needed);
+        last_.reset();
+    }
 
 private:
     Result<Segment> look(std::size_t s);
@@ -54,6 +59,7 @@ private:
     std::vector<Index::Entry> entries_;     ///< the SEGM of the index
     std::map<std::size_t, Segment> looked_; ///< what was found out: numbers of frames, no payload
     Bytes bytes_;                           ///< of the segment fetched last
+    std::optional<Segment> last_;           ///< that segment
     Needed needed_;                         ///< empty: all of it
 };
 
