@@ -27,7 +27,6 @@ namespace {
 
 constexpr std::uint32_t fast_growth = 12; // with fewer neighbours 2 to 8 % more bits; see docs/effort.md
 constexpr std::uint32_t fast_neighbours = 10;
-constexpr double fine_truncation = 0.08; // whatever component is left out, some vertex misses it
 constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
@@ -73,7 +72,7 @@ public:
             options_.progress,
         };
         codecs::Settings start = common(plan_.start);
-        if (limits_distance()) start.truncation = fine_truncation;
+        if (limits_distance()) spare_no_vertex(start);
         start.step = likely_step(start, segments_.spectra());
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
         if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
@@ -149,6 +148,14 @@ private:
     bool limits_distance() const { return options_.quality.max_error || options_.quality.max_error_relative; }
     bool limits_size() const { return std::isfinite(allowed_.bytes); }
     bool wants_sted() const { return std::isfinite(allowed_.sted) || (limits_size() && tune() == Tune::sted); }
+
+    /// For a limit on the largest error: whatever component is left out or level made cheap, some vertex misses it.
+    static void spare_no_vertex(codecs::Settings& settings)
+    {
+        settings.truncation = 0.08;
+        settings.bit_price = 0.0;
+        settings.taper = 0.0;
+    }
 
     codecs::Settings common(codecs::Settings settings) const
     {
