@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
+#include "meshreel/coding/varint.h"
 #include "meshreel/mesh/shapes.h"
 #include "tests/codecs/fixture.h"
 
@@ -43,13 +45,32 @@ const Leveled& leveled_jelly()
     return one;
 }
 
-/// Byte of the payload where a field stands.
-std::size_t place_of(const Leveled& reel, const std::string& field)
+/// A number in the payload.
+struct PlacedNumber {
+    std::size_t place = 0, size = 0;
+    std::string name;
+    std::uint64_t value = 0;
+};
+
+PlacedNumber number_of(const Leveled& reel, const std::string& field)
 {
     std::string lines;
     EXPECT_TRUE(reel.codec.explain({reel.payload, 0, "SEGM"}, {}, lines).ok());
-    const std::size_t line = lines.rfind('\n', lines.find(field)) + 1;
-    return std::stoul(lines.substr(line, 10));
+    std::istringstream line(lines.substr(lines.rfind('\n', lines.find(field)) + 1));
+    PlacedNumber number;
+    line >> number.place >> number.size >> number.name >> number.value;
+    EXPECT_EQ(number.name, field);
+    return number;
+}
+
+/// Another number where that one stands.
+Bytes replaced(Bytes payload, const PlacedNumber& number, std::uint64_t value)
+{
+    Bytes written;
+    coding::put_varint(written, value);
+    const auto at = payload.begin() + static_cast<std::ptrdiff_t>(number.place);
+    payload.insert(payload.erase(at, at + static_cast<std::ptrdiff_t>(number.size)), written.begin(), written.end());
+    return payload;
 }
 
 } // namespace
@@ -90,11 +111,33 @@ TEST(Detail, KnowsWhereLevelsEndFromAPayloadsFirstBytes)
 TEST(Detail, ThatEndsElsewhereThanItSaysIsRefused)
 {
     Bytes moved = leveled_jelly().payload; // one byte from one level to the next: the low bytes of two varints
-    ++moved[place_of(leveled_jelly(), "SEGM.levels[0].bytes")];
-    --moved[place_of(leveled_jelly(), "SEGM.levels[1].bytes")];
+    ++moved[number_of(leveled_jelly(), "SEGM.levels[0].bytes").place];
+    --moved[number_of(leveled_jelly(), "SEGM.levels[1].bytes").place];
     const auto whole = codecs::open(leveled_jelly().codec, leveled_jelly().coded(moved));
     ASSERT_FALSE(whole.ok());
     EXPECT_EQ(whole.error().sentence(), "byte 0: SEGM.levels: a level of detail ends at another byte than said");
+}
+
+TEST(Detail, OfFewerLevelsThanTheVerticesMakeIsRefused)
+{
+    const PlacedNumber coarse = number_of(leveled_jelly(), "SEGM.levels[0].bytes"),
+                       fine = number_of(leveled_jelly(), "SEGM.levels[1].bytes");
+    const PlacedNumber both{coarse.place, coarse.size + fine.size, {}, 0}; // two levels become one
+    Bytes payload = replaced(leveled_jelly().payload, both, coarse.value + fine.value);
+    --payload[coarse.place - 1];
+    const auto detail = leveled_jelly().codec.detail(leveled_jelly().coded(payload));
+    ASSERT_FALSE(detail.ok());
+    EXPECT_EQ(detail.error().field, "SEGM.levels");
+    EXPECT_EQ(codecs::open(leveled_jelly().codec, leveled_jelly().coded(payload)).error().field, "SEGM.levels");
+}
+
+TEST(Detail, ThatGoesBeyondThePayloadIsRefused)
+{
+    const Bytes payload =
+        replaced(leveled_jelly().payload, number_of(leveled_jelly(), "SEGM.levels[0].bytes"), 1u << 30);
+    const auto whole = codecs::open(leveled_jelly().codec, leveled_jelly().coded(payload));
+    ASSERT_FALSE(whole.ok());
+    EXPECT_EQ(whole.error().field, "SEGM.level_bits");
 }
 
 TEST(Detail, IsOneLevelOfWhateverIsSmall)
