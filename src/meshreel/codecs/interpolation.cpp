@@ -9,10 +9,10 @@ namespace meshreel::codecs {
 
 namespace {
 
-/// The nearest by the first components, from which the best by all known ones are chosen.
+/// The nearest by the first components, from which the best by all known ones are chosen: 24 for 16, 12 for 10.
 std::size_t candidates_of(const InterpolationLaw& law)
 {
-    return law.neighbours + law.neighbours / 2;
+    return std::max<std::size_t>(law.neighbours, 2 * law.neighbours - std::min(8u, law.neighbours));
 }
 
 /// Squared distance in four sums side by side.

@@ -33,10 +33,13 @@ public:
 
     const CoarseToFine& order() const { return order_; }
 
-    /// Where a batch of components that begins at k ends. The more are known, the less a few more tell.
+    /// Where a batch of components that begins at k ends. The more are known, the less a few more tell; and a last batch of
+    /// little is not worth weights of its own.
     std::size_t batch_end(std::size_t k) const
     {
-        return k + std::max<std::size_t>(1, k * law_.growth / 8 + k * k / 64);
+        const std::size_t all = relevance_.size();
+        const std::size_t size = std::max<std::size_t>(1, k * law_.growth / 8 + k * k / 64);
+        return k + size + size / 4 < all ? k + size : all;
     }
 
     struct Weights {

@@ -63,7 +63,7 @@ public:
             Level level{interpolation_.level(std::span(order.order).subspan(begin, end - begin)), taper_.at(known), C,
                         L};
             for (std::size_t k = first; k < C.cols && !ended(core_);) {
-                const std::size_t next = std::min(C.cols, interpolation_.batch_end(k));
+                const std::size_t next = interpolation_.batch_end(k);
                 code_batch(level, k, next);
                 k = next;
             }
@@ -86,25 +86,39 @@ private:
     };
     struct Place {
         std::size_t v, k;
+        double guess, nearby; ///< nearby: how large the levels of the neighbours are
     };
 
     void code_batch(Level& level, std::size_t first, std::size_t last)
     {
         const std::vector<Interpolation::Weights> weights = interpolation_.weights(level.near, level.C, first);
         guess_.resize(last - first);
+        nearby_.resize(last - first);
         for (std::size_t i = 0; i < weights.size() && !ended(core_); ++i) {
             const std::size_t v = level.near.vertices[i];
             weights[i].apply(level.C, first, guess_);
-            for (std::size_t k = first; k < last; ++k) code_value(weights[i], {v, k}, level, guess_[k - first]);
+            look_around(weights[i], first, level.L);
+            for (std::size_t k = first; k < last; ++k)
+                code_value(weights[i], {v, k, guess_[k - first], nearby_[k - first]}, level);
         }
     }
 
-    void code_value(const Interpolation::Weights& near, const Place& place, const Level& level, double guess)
+    /// Fills `nearby_` for components from `first` on; 4 where nothing is known.
+    void look_around(const Interpolation::Weights& near, std::size_t first, MatrixView<const std::uint8_t> L)
     {
-        const auto [v, k] = place;
-        double sizes = 0;
-        for (std::size_t i = 0; i < near.count; ++i) sizes += shares[i] * level.L(near.vertices[i], k);
-        const double nearby = near.count > 0 ? sizes / share_sums[near.count] : 4.0;
+        std::fill(nearby_.begin(), nearby_.end(), near.count > 0 ? 0.0 : 4.0);
+        for (std::size_t i = 0; i < near.count; ++i) {
+            const std::uint8_t* __restrict sizes = L.row(near.vertices[i]).data() + first;
+            const double share = shares[i];
+            for (std::size_t k = 0; k < nearby_.size(); ++k) nearby_[k] += share * sizes[k];
+        }
+        if (near.count > 0)
+            for (double& nearby : nearby_) nearby = nearby / share_sums[near.count];
+    }
+
+    void code_value(const Interpolation::Weights& near, const Place& place, const Level& level)
+    {
+        const auto [v, k, guess, nearby] = place;
         double &value = level.C(v, k), &own = own_[v], &usual = usual_[k];
         const double expected = 0.45 * nearby + 0.3 * own + 0.25 * usual;
         const auto row = static_cast<std::uint32_t>(std::min<std::size_t>(k, rows - 1));
@@ -147,9 +161,9 @@ private:
     const Interpolation& interpolation_;
     Taper taper_;
     coding::MixedLevels<3> levels_;
-    std::vector<double> usual_; ///< [K] how large the levels of a component have been of late
-    std::vector<double> own_;   ///< [W] and those of a vertex
-    std::vector<double> guess_;
+    std::vector<double> usual_;          ///< [K] how large the levels of a component have been of late
+    std::vector<double> own_;            ///< [W] and those of a vertex
+    std::vector<double> guess_, nearby_; ///< of a batch
 };
 
 } // namespace meshreel::codecs

@@ -266,6 +266,12 @@ struct ReelReader {
         return at_part(range_taken(part, body), source, part, field);
     }
 
+    Status poses(MatrixView<double> Y) const
+    {
+        return read(bits.basis, "basis_bits",
+                    [&](coding::RangeDecoder& core) { PoseWalk(core, coding::Quantiser{head.basis_step}).code(Y); });
+    }
+
     Status first_components_of(const connectivity::Surface& surface, MatrixView<double> C,
                                MatrixView<std::uint8_t> L) const
     {
@@ -323,13 +329,17 @@ Result<Trajectories> open_reel(const Coded& coded)
     MESHREEL_TRY(const ReelReader reader, ReelReader::open(coded));
     const std::size_t W = coded.surface.vertex_count;
     Matrix<double> Y(coded.frame_count, 3 * (reader.K + 1));
-    MESHREEL_CHECK(reader.read(reader.bits.basis, "basis_bits", [&](coding::RangeDecoder& core) {
-        PoseWalk(core, coding::Quantiser{reader.head.basis_step}).code(Y.view());
-    }));
-    WeighedBasis weighed = basis_of(Y.view(), reader.head, static_cast<double>(W));
-    Trajectories result{std::move(weighed.basis), Matrix<double>(W, reader.K)};
+    Trajectories result{{}, Matrix<double>(W, reader.K)};
     Matrix<std::uint8_t> L(W, reader.K);
-    MESHREEL_CHECK(reader.first_components_of(coded.surface, result.C.view(), L.view()));
+    std::array<Status, 2> read{Ok{}, Ok{}};
+    parallel_for(read.size(), coded.threads, [&](std::size_t part) { // neither needs the other
+        read[part] =
+            part == 0 ? reader.first_components_of(coded.surface, result.C.view(), L.view()) : reader.poses(Y.view());
+    });
+    MESHREEL_CHECK(read[1]);
+    MESHREEL_CHECK(read[0]);
+    WeighedBasis weighed = basis_of(Y.view(), reader.head, static_cast<double>(W));
+    result.basis = std::move(weighed.basis);
     if (reader.K == reader.first) return result;
     const Interpolation interpolation(first_of(result.C.view()).view(), relevance_of(weighed.energies), reader.head.law,
                                       coded.threads);
