@@ -35,6 +35,16 @@ TEST(Decimated, InterpolationIsSmallerThanExtrapolationAndProgressivePredictorsS
     EXPECT_LT(size_of(codecs::rbfp(), prepared), average);
 }
 
+TEST(Decimated, IsNeverMuchLargerThanCoddyac)
+{
+    for (const char* shape : {"walker", "cloth", "snake"}) {
+        const Prepared prepared(*shapes::generate(*shapes::find(shape), {.vertices = 500, .frames = 20}));
+        const std::size_t coddyac = size_of(codecs::coddyac(), prepared);
+        for (const codecs::Codec& codec : {codecs::average(), codecs::lsp(), codecs::rbfp()})
+            EXPECT_LE(size_of(codec, prepared), coddyac + 2) << codec.name << " of " << shape;
+    }
+}
+
 TEST(Decimated, SendsLessThanTwoBitsAVertexForWhoGoes)
 {
     const Prepared prepared = jelly();

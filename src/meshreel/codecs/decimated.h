@@ -111,20 +111,32 @@ public:
         const auto cost = [&](std::uint32_t v, std::span<const std::uint32_t> ring) {
             return judge.cost(predictor, v, ring);
         };
-        removals_ = removals(surface_, connectivity::plan_decimation(surface_, sequence.frames.row(0), cost));
+        all_ = removals(surface_, connectivity::plan_decimation(surface_, sequence.frames.row(0), cost));
+        none_ = removals(surface_, {});
     }
 
+    /// With all levels, or with none where that is smaller: a predictor may be worse than the parallelogram.
     Bytes write(const PcaPayload& head, MatrixView<double> C) const override
     {
-        return written(head.entropy, decimated_contexts(head.entropy, C.cols), [&](auto& coder) {
-            code_removals(coder, head.entropy, surface_, removals_);
-            code_decimated<Predictor>(coder, head, removals_.decimation, C);
-        });
+        Matrix<double> plain(C.rows, C.cols);
+        std::copy_n(C.data, plain.values.size(), plain.values.begin());
+        Bytes bytes = write_with(all_, head, C), undecimated = write_with(none_, head, plain.view());
+        if (bytes.size() <= undecimated.size()) return bytes;
+        std::copy(plain.values.begin(), plain.values.end(), C.data);
+        return undecimated;
     }
 
 private:
+    Bytes write_with(const Removals& removals, const PcaPayload& head, MatrixView<double> C) const
+    {
+        return written(head.entropy, decimated_contexts(head.entropy, C.cols), [&](auto& coder) {
+            code_removals(coder, head.entropy, surface_, removals);
+            code_decimated<Predictor>(coder, head, removals.decimation, C);
+        });
+    }
+
     const connectivity::Surface& surface_;
-    Removals removals_;
+    Removals all_, none_;
 };
 
 template <class Predictor>
