@@ -25,7 +25,7 @@ namespace meshreel {
 
 namespace {
 
-constexpr std::uint32_t fast_growth = 12; // with fewer neighbours 2 to 8 % more bits; see docs/effort.md
+constexpr std::uint32_t fast_growth = 12; // with fewer neighbours 5 to 14 % more bits; see docs/effort.md
 constexpr std::uint32_t fast_neighbours = 10;
 constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 

@@ -23,7 +23,7 @@ constexpr std::array<EffortRow, most_effort> effort_rows{{
     {4, 3, 1},
     {3, 4, 1},
     {3, 5, 1},
-    {2, 5, 3},
+    {3, 5, 3},
 }};
 
 } // namespace
