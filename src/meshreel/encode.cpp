@@ -25,7 +25,7 @@ namespace meshreel {
 
 namespace {
 
-constexpr std::uint32_t fast_growth = 12; // with fewer neighbours 5 to 14 % more bits; see docs/effort.md
+constexpr std::uint32_t fast_growth = 12;   // see docs/effort.md
 constexpr std::uint32_t fast_neighbours = 10;
 constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 
@@ -165,6 +165,7 @@ private:
         if (options_.fast_decode) {
             settings.growth = std::max(settings.growth, fast_growth);
             settings.neighbours = fast_neighbours;
+            settings.mixed = false;
         }
         return settings;
     }

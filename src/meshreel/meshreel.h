@@ -40,7 +40,7 @@ struct EncodeOptions {
     Quality quality;
     std::optional<Tune> tune; ///< what should look best; none: what the target measures, STED where there is none
     int effort = tune::usual_effort; ///< 1 fastest .. 9 smallest, docs/effort.md
-    bool fast_decode = false;        ///< opens several times faster, some percent larger (reel)
+    bool fast_decode = false;        ///< opens in half the time, some percent larger (reel)
     Order order = Order::keep;
     const Animation* base = nullptr; ///< for Order::base: V and triangles that the reader will have
     BasisCoding basis = BasisCoding::cobra;

@@ -36,12 +36,13 @@ struct Taper {
 /// before each batch every vertex' weights are found anew from all components known of it and of its neighbours. Vertices
 /// of a level do not depend on each other, so weights are found in parallel.
 /// @cost O(W K n) and O(W n^2 K) for the weights, of n neighbours.
-template <class Core>
+/// contexts: of each decision, 3 or, faster and some percent larger, the first alone.
+template <class Core, std::size_t contexts>
 class LevelWalk {
 public:
     LevelWalk(Core& core, const Interpolation& interpolation, Taper taper)
         : core_(core), interpolation_(interpolation), taper_(taper),
-          levels_({near_columns * own_columns, rows * row_columns, seen_contexts}, judges)
+          levels_(some_of({near_columns * own_columns, rows * row_columns, seen_contexts}), judges)
     {
     }
 
@@ -77,6 +78,8 @@ public:
 private:
     static constexpr std::uint32_t near_columns = 22, own_columns = 18, rows = 96, row_columns = 14,
                                    seen_contexts = 243, judges = 12;
+
+    using Places = typename coding::MixedLevels<contexts>::Places;
 
     struct Level {
         Interpolation::Level near;
@@ -122,9 +125,9 @@ private:
         double &value = level.C(v, k), &own = own_[v], &usual = usual_[k];
         const double expected = 0.45 * nearby + 0.3 * own + 0.25 * usual;
         const auto row = static_cast<std::uint32_t>(std::min<std::size_t>(k, rows - 1));
-        const coding::MixedLevels<3>::Places places = {
-            coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
-            row * row_columns + coding::octave_column<0>(expected, row_columns), seen(near, place, level.L)};
+        const Places places = some_of(
+            {coding::octave_column<1>(nearby, near_columns) * own_columns + coding::octave_column<1>(own, own_columns),
+             row * row_columns + coding::octave_column<0>(expected, row_columns), seen(near, place, level.L)});
         const std::uint32_t judge = coding::octave_column<0>(expected, judges);
         const std::int32_t wanted = Core::writes ? levels_.choose(places, judge, level.quantiser, value - guess) : 0;
         const std::int32_t coded = levels_.code(core_, places, judge, wanted);
@@ -133,6 +136,13 @@ private:
         level.L(v, k) = static_cast<std::uint8_t>(std::min(size, 255u));
         own += 0.3 * (size - own);
         usual += 0.01 * (size - usual);
+    }
+
+    static Places some_of(const std::array<std::uint32_t, 3>& all)
+    {
+        Places places;
+        std::copy_n(all.begin(), contexts, places.begin());
+        return places;
     }
 
     /// The levels of the three nearest vertices and of the two components before, each 0, 1 or more.
@@ -160,7 +170,7 @@ private:
     Core& core_;
     const Interpolation& interpolation_;
     Taper taper_;
-    coding::MixedLevels<3> levels_;
+    coding::MixedLevels<contexts> levels_;
     std::vector<double> usual_;          ///< [K] how large the levels of a component have been of late
     std::vector<double> own_;            ///< [W] and those of a vertex
     std::vector<double> guess_, nearby_; ///< of a batch

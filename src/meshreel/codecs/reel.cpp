@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "meshreel/base/text.h"
 #include "meshreel/codecs/choice.h"
@@ -36,11 +37,19 @@ struct ReelPayload {
     std::array<float, 3> origin{};
     std::uint32_t taper = 0;
     InterpolationLaw law;
+    std::uint32_t mixed = 1;
     std::uint64_t basis_size = 0, first_size = 0;
     std::vector<LevelSize> levels;
     ByteView bits;
 
     double taper_exponent() const { return taper / static_cast<double>(taper_one); }
+
+    /// body(how many contexts a level is coded under, as a constant)
+    auto with_contexts(const auto& body) const
+    {
+        return mixed != 0 ? body(std::integral_constant<std::size_t, 3>{})
+                          : body(std::integral_constant<std::size_t, 1>{});
+    }
 
     void fields(auto& io)
     {
@@ -55,6 +64,8 @@ struct ReelPayload {
                   "2^-8: to which power of their share of vertices coarse levels are finer");
         io.f64("linear", law.linear, {0.0, 1e6}, "trust in motions known already against smoothness");
         io.f64("squared_bend", law.squared_bend, {1e-6, 1e6}, "c^2 of the multiquadric");
+        io.varint("mixed", mixed, {0, 1},
+                  "1: levels are coded under three contexts at once, 0: under the first of them");
         io.varint("neighbours", law.neighbours, {1, Interpolation::most}, "vertices that one is interpolated from");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
         io.varint("basis_size", basis_size, {0, most_part_bytes}, "bytes of basis_bits");
@@ -180,6 +191,7 @@ private:
         coded.head.taper = static_cast<std::uint32_t>(std::lround(settings.taper * taper_one));
         coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth,
                           settings.neighbours};
+        coded.head.mixed = settings.mixed ? 1 : 0;
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);
@@ -215,9 +227,11 @@ private:
         Bytes level_bits;
         if (C.cols > first)
             level_bits = range_written([&](coding::RangeEncoder& core) {
-                ends =
-                    LevelWalk(core, interpolation, {{coded.head.step, settings.bit_price}, coded.head.taper_exponent()})
+                const Taper taper{{coded.head.step, settings.bit_price}, coded.head.taper_exponent()};
+                ends = coded.head.with_contexts([&](auto contexts) {
+                    return LevelWalk<coding::RangeEncoder, contexts>(core, interpolation, taper)
                         .code(first, C, L.view(), counts);
+                });
             });
         std::uint64_t begin = 0;
         for (const std::uint64_t end : ends) {
@@ -316,8 +330,11 @@ Status read_levels(const ReelReader& reader, const Coded& coded, const Interpola
     const ByteView bits = reader.bits.levels.first(static_cast<std::size_t>(needed));
     std::vector<std::uint64_t> ends;
     MESHREEL_CHECK(reader.read(bits, "level_bits", [&](coding::RangeDecoder& core) {
-        ends = LevelWalk(core, interpolation, {{reader.head.step}, reader.head.taper_exponent()})
-                   .code(reader.first, result.C, result.L, counts);
+        const Taper taper{{reader.head.step}, reader.head.taper_exponent()};
+        ends = reader.head.with_contexts([&](auto contexts) {
+            return LevelWalk<coding::RangeDecoder, contexts>(core, interpolation, taper)
+                .code(reader.first, result.C, result.L, counts);
+        });
     }));
     if (std::ranges::equal(ends, std::span(reader.bits.level_ends).first(ends.size()))) return Ok{};
     return bad_input("a level of detail ends at another byte than said", reader.source.name + ".levels",

@@ -48,6 +48,7 @@ struct Settings {
     double squared_bend = 1.0;               ///< up to which distance, squared, motions are smooth, > 0 (reel)
     std::uint32_t growth = 8;                ///< weights are found anew after so many eighths of the components known
                                              ///< more; the more, the faster, >= 1 (reel)
+    bool mixed = true;                       ///< several contexts for each level; one is faster (reel)
     std::uint32_t neighbours = 16;           ///< that a vertex is interpolated from, 1 .. 16; fewer are faster (reel)
     double basis_ratio = 1.0;                ///< beta: Q_m = beta D / sqrt(W), see basis_law; > 0
     BasisCoding basis = BasisCoding::cobra;
