@@ -25,7 +25,7 @@ namespace meshreel {
 
 namespace {
 
-constexpr std::uint32_t fast_growth = 12;   // see docs/effort.md
+constexpr std::uint32_t fast_growth = 12; // see docs/effort.md
 constexpr std::uint32_t fast_neighbours = 10;
 constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 

@@ -35,6 +35,7 @@ inline std::vector<codecs::Settings> all_settings(double step)
     for (std::size_t basis = 0; basis < basis_coding_names.size(); ++basis)
         for (Entropy entropy : {Entropy::huffman, Entropy::range})
             all.push_back({.step = step, .basis = static_cast<BasisCoding>(basis), .entropy = entropy});
+    all.push_back({.step = step, .growth = 12, .mixed = false, .neighbours = 5}); // files that open fast
     return all;
 }
 
