@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz bench bench-effort bench-rate figures format docs clean
+.PHONY: build demo check test fuzz bench bench-effort bench-rate bench-scale figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -27,6 +27,9 @@ bench:          ## speeds and memory
 
 bench-effort: build ## the table of docs/effort.md
 	bench/effort.py --write
+
+bench-scale: build  ## how cost grows with V and F: the table of docs/benchmarks.md
+	bench/scale.py
 
 bench-rate: build   ## rates at given errors beside what they must be, and bench/ledger.csv
 	bench/rate.py --ledger bench/ledger.csv

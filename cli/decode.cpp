@@ -8,6 +8,9 @@
 #include "cli/source.h"
 #include "cli/target.h"
 #include "cli/verb.h"
+#include "meshreel/base/file.h"
+#include "meshreel/container/package.h"
+#include "meshreel/meshreel.h"
 
 namespace meshreel::cli {
 
@@ -47,6 +50,8 @@ public:
         Json figures{{"schema", "meshreel.decode/1"}, {"input", source_.path}, {"output", target_.path}};
         figures["skipped"] = go == Go::skip;
         if (go == Go::skip) return Report{figures, fmt::format("{}: exists, skipped\n", target_.path)};
+        MESHREEL_TRY(const bool long_one, is_long());
+        if (long_one) return stream(figures, watch, console);
         const Stopwatch decoding;
         MESHREEL_TRY(const Animation animation, load(source_, console));
         const double decode_seconds = decoding.seconds();
@@ -64,6 +69,53 @@ public:
     }
 
 private:
+    bool takes_all() const
+    {
+        const io::FrameRange all;
+        return source_.fps == 0.0 && source_.level == 0 && source_.frames.first == all.first &&
+               source_.frames.last == all.last && source_.frames.step == all.step;
+    }
+
+    DecodeOptions options(const Animation& base, Console& console) const
+    {
+        DecodeOptions options;
+        options.base = source_.base.empty() ? nullptr : &base;
+        options.limits = source_.limits;
+        options.threads = source_.threads;
+        options.progress = console.progress();
+        return options;
+    }
+
+    /// Whether the positions are better not held all at once, and need not be.
+    Result<bool> is_long() const
+    {
+        constexpr std::uint64_t held_bytes = 256 << 20;
+        if (!takes_all() || !takes_frames(target_) || !is_regular_file(source_.path)) return false;
+        MESHREEL_TRY(FileSource file, FileSource::open(source_.path));
+        MESHREEL_TRY(const auto head, in_file(container::StreamReader::open_head(file, source_.limits), source_.path));
+        MESHREEL_TRY(const container::Header header, in_file(container::read_header(head), source_.path));
+        return 12 * std::uint64_t{header.vertex_count} * header.frame_count > held_bytes;
+    }
+
+    /// Decodes a segment, writes its frames, and so on.
+    Result<Report> stream(Json& figures, const Stopwatch& watch, Console& console)
+    {
+        MESHREEL_TRY(const Animation base, load_base(source_, console));
+        MESHREEL_TRY(FileSource file, FileSource::open(source_.path));
+        MESHREEL_TRY(const std::unique_ptr<FrameSource> frames,
+                     in_file(open_frames(file, options(base, console)), source_.path));
+        MESHREEL_CHECK(save(*frames, target_, console));
+        add_counts(figures, frames->still());
+        figures["raw_bytes"] = raw_bytes(frames->still());
+        figures["decode_seconds"] = watch.seconds(); // what is written meanwhile included
+        figures["decode_peak_memory_bytes"] = peak_memory_bytes();
+        figures["seconds"] = watch.seconds();
+        figures["peak_memory_bytes"] = peak_memory_bytes();
+        return Report{figures, fmt::format("{} -> {}: {}\n  {:.2f} s, at most {} of memory\n", source_.path,
+                                           target_.path, counts_text(frames->still()), watch.seconds(),
+                                           human_bytes(static_cast<double>(peak_memory_bytes())))};
+    }
+
     Source source_;
     Target target_;
 };

@@ -178,6 +178,32 @@ Status save(const Animation& animation, const Target& target, Console& console)
     return saved;
 }
 
+bool takes_frames(const Target& target)
+{
+    const io::Format* const format = format_called(target.format_name());
+    return format != nullptr && format->save_frames != nullptr;
+}
+
+Status save(FrameSource& frames, const Target& target, Console& console)
+{
+    const bool with_mesh = !target.mesh_out.empty();
+    if (with_mesh) {
+        Matrix<float> room;
+        MESHREEL_TRY(const MatrixView<const float> first, frames.frames(0, 1, room));
+        Animation mesh = frames.still();
+        mesh.positions.assign(first.values().begin(), first.values().end());
+        mesh.times_s.resize(1);
+        io::SaveOptions options;
+        options.overwrite = target.overwrite;
+        MESHREEL_CHECK(in_file(io::save(mesh, target.mesh_out, options), target.mesh_out));
+    }
+    const io::Format* const format = format_called(target.format_name());
+    Status saved = in_file(format->save_frames(frames, target.path, save_options(target, console)), target.path);
+    std::error_code ignored;
+    if (with_mesh && !saved.ok()) fs::remove(target.mesh_out, ignored); // nothing is left behind
+    return saved;
+}
+
 Status save_bytes(ByteView bytes, const Target& target)
 {
     return in_file(write_file(target.path, bytes, target.overwrite), target.path);

@@ -43,6 +43,10 @@ Result<Go> prepare(const Target& target, std::initializer_list<std::string> inpu
 
 /// Writes an animation in any format; nothing is left behind where it fails.
 Status save(const Animation& animation, const Target& target, Console& console);
+/// Whether its format is written frame by frame.
+bool takes_frames(const Target& target);
+/// The same of frames that are asked for one after the other. @pre takes_frames(target)
+Status save(FrameSource& frames, const Target& target, Console& console);
 
 /// Bytes to a file or to standard output, but not to a terminal.
 Status save_bytes(ByteView bytes, const Target& target);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,6 +96,10 @@ Result<Animation> decode(ByteView reel, const DecodeOptions& options = {});
 /// frame asked for. Unlike decode(ByteView) it does not verify the others. For a level above 0 the file may have been cut
 /// off behind what the level needs: after LevelInfo::bytes, if it has one segment. @fails as decode; io.
 Result<Animation> decode(ByteSource& reel, const DecodeOptions& options = {});
+
+/// All stored frames of a file, decoded when they are asked for, of which one segment is in memory at a time. The file must
+/// outlive it; of the options frames, fps and level stay at their defaults. @fails as decode.
+Result<std::unique_ptr<FrameSource>> open_frames(ByteSource& reel, const DecodeOptions& options = {});
 
 /// The animation numbered as Order::free would give it back: to compare a decoded file with its original.
 Animation in_free_order(const Animation& animation, Threads threads = {});

@@ -57,6 +57,17 @@ TEST(StreamedFrames, OfSequencesAreThoseThatLoadGives)
     expect_same_frames(**source, *load(folder / "t.##.obj"));
 }
 
+TEST(StreamedFrames, AreWrittenAsTheAnimationIs)
+{
+    const Folder folder;
+    const Animation made = tetrahedron(7);
+    HeldFrames frames(made);
+    ASSERT_TRUE(save_pc2_frames(frames, folder / "a.pc2", {}).ok());
+    ASSERT_TRUE(save_mdd_frames(frames, folder / "a.mdd", {}).ok());
+    EXPECT_EQ(bytes_of(read(folder / "a.pc2")), *write_pc2(made));
+    EXPECT_EQ(bytes_of(read(folder / "a.mdd")), *write_mdd(made));
+}
+
 TEST(StreamedFrames, ChangedFilesAreNoticedByFrame)
 {
     const Folder folder;

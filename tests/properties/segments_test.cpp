@@ -112,6 +112,27 @@ TEST(Segments, WhatAnEncodingSaysIsWhatTheMeasuresSayOfTheDecodedFile)
     }
 }
 
+TEST(Segments, FramesComeOutOfAFileOneSegmentAtATimeAsDecodeGivesThem)
+{
+    const Animation animation = swimmer(50);
+    const Bytes reel = encode(animation, in_segments(20))->bytes;
+    MemorySource file(reel);
+    const auto source = open_frames(file);
+    ASSERT_TRUE(source.ok()) << source.error().sentence();
+    const Animation decoded = *decode(reel);
+    EXPECT_EQ((*source)->still().times_s, decoded.times_s);
+    Matrix<float> room;
+    for (const std::size_t first : {0u, 30u, 7u, 47u}) {
+        const MatrixView<const float> frames = *(*source)->frames(first, 3, room);
+        EXPECT_TRUE(std::equal(frames.data, frames.data + frames.rows * frames.cols, decoded.frame(first).data()));
+    }
+    Bytes damaged = reel;
+    damaged[reel.size() / 2] ^= 1;
+    MemorySource bad(damaged);
+    const auto opened = open_frames(bad);
+    ASSERT_TRUE(!opened.ok() || !(*opened)->frames(0, 50, room).ok());
+}
+
 TEST(Segments, AnyReadThatFailsEndsTheEncodingWithItsError)
 {
     const Animation animation = swimmer(30);

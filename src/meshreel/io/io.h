@@ -56,6 +56,8 @@ struct Format {
     Status (*save)(const Animation& animation, const std::string& path, const SaveOptions& options);
     /// Null where files of this format are only read as a whole.
     Result<std::unique_ptr<FrameSource>> (*open)(const std::string& path, const LoadOptions& options) = nullptr;
+    /// Null where an animation is only written as a whole.
+    Status (*save_frames)(FrameSource& frames, const std::string& path, const SaveOptions& options) = nullptr;
 };
 
 /// Every format, in the order of the documentation.

@@ -28,5 +28,8 @@ Result<Animation> load_mdd(const std::string& path, const LoadOptions& options);
 Result<std::unique_ptr<FrameSource>> open_mdd(const std::string& path, const LoadOptions& options);
 Status save_pc2(const Animation& animation, const std::string& path, const SaveOptions& options);
 Status save_mdd(const Animation& animation, const std::string& path, const SaveOptions& options);
+/// Frame by frame, as they come.
+Status save_pc2_frames(FrameSource& frames, const std::string& path, const SaveOptions& options);
+Status save_mdd_frames(FrameSource& frames, const std::string& path, const SaveOptions& options);
 
 } // namespace meshreel::io

@@ -20,17 +20,21 @@ Status check_counts(const Animation& animation)
     return unsupported("a point cache counts vertices and frames in 31 bits");
 }
 
+void warn_of_appearance(const Animation& animation, const SaveOptions& options)
+{
+    if (!animation.appearance.attributes.empty())
+        tell(options, "a point cache holds positions only: keep the mesh for its attributes and materials");
+}
+
 Status save_cache(Result<Bytes> bytes, const Animation& animation, const std::string& path, const SaveOptions& options)
 {
     if (!bytes.ok()) return in_file(Status(std::move(bytes).error()), path);
-    if (!animation.appearance.attributes.empty())
-        tell(options, "a point cache holds positions only: keep the mesh for its attributes and materials");
+    warn_of_appearance(animation, options);
     return write_file(path, *bytes, options.overwrite);
 }
 
-} // namespace
-
-Result<Bytes> write_pc2(const Animation& animation)
+/// What stands before the positions.
+Result<Bytes> pc2_head(const Animation& animation)
 {
     MESHREEL_CHECK(check_counts(animation));
     const auto spacing = even_spacing(animation);
@@ -39,21 +43,19 @@ Result<Bytes> write_pc2(const Animation& animation)
                            "times");
     const double fps = animation.meta.fps > 0 ? animation.meta.fps : default_fps;
     Bytes bytes{'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', 0};
-    bytes.reserve(32 + animation.positions.size() * 4);
     append_number(bytes, std::int32_t(1), ByteOrder::little);
     append_number(bytes, static_cast<std::int32_t>(animation.vertex_count), ByteOrder::little);
     append_number(bytes, static_cast<float>(animation.times_s.front() * fps), ByteOrder::little);
     append_number(bytes, static_cast<float>(*spacing * fps), ByteOrder::little);
     append_number(bytes, static_cast<std::int32_t>(animation.frame_count()), ByteOrder::little);
-    for (float value : animation.positions) append_number(bytes, value, ByteOrder::little);
     return bytes;
 }
 
-Result<Bytes> write_mdd(const Animation& animation)
+/// Likewise.
+Result<Bytes> mdd_head(const Animation& animation)
 {
     MESHREEL_CHECK(check_counts(animation));
     Bytes bytes;
-    bytes.reserve(8 + animation.frame_count() * 4 + animation.positions.size() * 4);
     append_number(bytes, static_cast<std::int32_t>(animation.frame_count()), ByteOrder::big);
     append_number(bytes, static_cast<std::int32_t>(animation.vertex_count), ByteOrder::big);
     for (std::size_t f = 0; f < animation.frame_count(); ++f) {
@@ -63,7 +65,39 @@ Result<Bytes> write_mdd(const Animation& animation)
                 concat("frames ", f - 1, " and ", f, " are at the same time in the float32 of an MDD file"), "times");
         append_number(bytes, time, ByteOrder::big);
     }
-    for (float value : animation.positions) append_number(bytes, value, ByteOrder::big);
+    return bytes;
+}
+
+void append_positions(Bytes& bytes, std::span<const float> positions, ByteOrder order)
+{
+    bytes.reserve(bytes.size() + positions.size_bytes());
+    for (const float value : positions) append_number(bytes, value, order);
+}
+
+Status save_cache_frames(ByteView head, FrameSource& frames, AtomicFile file, ByteOrder order)
+{
+    MESHREEL_CHECK(file.write(head));
+    MESHREEL_CHECK(for_frame_runs(frames, [&](std::size_t, MatrixView<const float> run) {
+        Bytes bytes;
+        append_positions(bytes, run.values(), order);
+        return file.write(bytes);
+    }));
+    return file.commit();
+}
+
+} // namespace
+
+Result<Bytes> write_pc2(const Animation& animation)
+{
+    MESHREEL_TRY(Bytes bytes, pc2_head(animation));
+    append_positions(bytes, animation.positions, ByteOrder::little);
+    return bytes;
+}
+
+Result<Bytes> write_mdd(const Animation& animation)
+{
+    MESHREEL_TRY(Bytes bytes, mdd_head(animation));
+    append_positions(bytes, animation.positions, ByteOrder::big);
     return bytes;
 }
 
@@ -75,6 +109,22 @@ Status save_pc2(const Animation& animation, const std::string& path, const SaveO
 Status save_mdd(const Animation& animation, const std::string& path, const SaveOptions& options)
 {
     return save_cache(write_mdd(animation), animation, path, options);
+}
+
+Status save_pc2_frames(FrameSource& frames, const std::string& path, const SaveOptions& options)
+{
+    MESHREEL_TRY(Bytes head, in_file(pc2_head(frames.still()), path));
+    warn_of_appearance(frames.still(), options);
+    MESHREEL_TRY(AtomicFile file, AtomicFile::create(path, options.overwrite));
+    return save_cache_frames(head, frames, std::move(file), ByteOrder::little);
+}
+
+Status save_mdd_frames(FrameSource& frames, const std::string& path, const SaveOptions& options)
+{
+    MESHREEL_TRY(Bytes head, in_file(mdd_head(frames.still()), path));
+    warn_of_appearance(frames.still(), options);
+    MESHREEL_TRY(AtomicFile file, AtomicFile::create(path, options.overwrite));
+    return save_cache_frames(head, frames, std::move(file), ByteOrder::big);
 }
 
 } // namespace meshreel::io
