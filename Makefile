@@ -31,8 +31,9 @@ bench-effort: build ## the table of docs/effort.md
 bench-scale: build  ## how cost grows with V and F: the table of docs/benchmarks.md
 	bench/scale.py
 
-bench-rate: build   ## rates at given errors beside what they must be, and bench/ledger.csv
+bench-rate: build   ## rates at given errors beside what they must be: bench/ledger.csv and the README's table
 	bench/rate.py --ledger bench/ledger.csv
+	bench/rate.py --readme bench/ledger.csv
 
 figures:        ## the thesis' tables and figures, measured: docs/thesis-figures.md; DATA=FOLDER where the sequences are elsewhere
 	tools/install.sh --with-figures

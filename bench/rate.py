@@ -34,6 +34,7 @@ def arguments():
     parser.add_argument("--entropy", default="range", choices=("range", "huffman"))
     parser.add_argument("--effort", type=int, help="of the encoder; default: its own")
     parser.add_argument("--ledger", help="write the table here as CSV")
+    parser.add_argument("--readme", metavar="LEDGER", help="write this ledger into the README's table, and do no more")
     parser.add_argument("--check", metavar="LEDGER", help="exit with 1 where a file is larger than in this ledger")
     parser.add_argument("sequences", nargs="*", help="default: all")
     return parser.parse_args()
@@ -98,8 +99,32 @@ def grown(rows, path):
     return [f"{key}: {size} bytes, {known[key]} in the ledger" for key, size in keys if size > known.get(key, math.inf)]
 
 
+def summary(path):
+    """The ledger as a table in Markdown: a line a sequence."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rates = {(r["sequence"], r["measure"], float(r["asked"])): float(r["bpfv"]) for r in csv.DictReader(file)}
+    columns = [("kg", 0.5, "KG 0.5 %"), ("kg", 0.1, "KG 0.1 %"), ("sted", 0.03, "STED 0.03")]
+    lines = ["| sequence | " + " | ".join(title for _, _, title in columns) + " | at KG 0.1 % of float32 |",
+             "|" + "---|" * (len(columns) + 2)]
+    for name in dict.fromkeys(sequence for sequence, _, _ in rates):
+        at = [rates[name, measure, value] for measure, value, _ in columns]
+        lines.append(f"| {name} | " + " | ".join(f"{rate:.3f}" for rate in at) + f" | 1 : {96 / at[1]:.0f} |")
+    return lines
+
+
+def write_readme(path):
+    readme = os.path.join(ROOT, "README.md")
+    with open(readme, encoding="utf-8") as file:
+        text = file.read()
+    begin, end = text.index("| sequence |"), text.index("\n\n", text.index("| sequence |"))
+    with open(readme, "w", encoding="utf-8") as file:
+        file.write(text[:begin] + "\n".join(summary(path)) + text[end:])
+
+
 def main():
     options = arguments()
+    if options.readme:
+        return write_readme(options.readme)
     print(f"{'sequence':<14}{'at':<12}{'KG %':>9}{'STED':>9}{'bytes':>9}{'bpfv':>9}{'must':>8}{'aim':>8}{'K':>5}{'enc s':>8}")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
