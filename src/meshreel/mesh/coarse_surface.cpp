@@ -109,8 +109,8 @@ CoarseSurface coarse_surface(std::span<const Triangle> triangles, MatrixView<con
     }
     std::ranges::sort(
         found, [](const Found& a, const Found& b) { return std::tie(a.turned, a.from) < std::tie(b.turned, b.from); });
-    const auto again = std::ranges::unique(found, {}, &Found::turned);
-    found.erase(again.begin(), again.end());
+    const auto same = [](const Found& a, const Found& b) { return a.turned == b.turned; };
+    found.erase(std::unique(found.begin(), found.end(), same), found.end());
     std::ranges::sort(found, {}, &Found::from);
     CoarseSurface coarse;
     for (const Found& one : found) {
