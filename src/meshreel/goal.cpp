@@ -81,8 +81,10 @@ Measures allowed_by(const Quality& quality, const Animation& animation, double d
 
 double excess_of(const Measures& reached, const Measures& allowed)
 {
-    return std::max({reached.kg / allowed.kg, reached.rms / allowed.rms, reached.max_error / allowed.max_error,
-                     reached.sted / allowed.sted, reached.bytes / allowed.bytes});
+    const auto share = [](double is, double may) { return std::isfinite(may) ? is / may : 0.0; };
+    return std::max({share(reached.kg, allowed.kg), share(reached.rms, allowed.rms),
+                     share(reached.max_error, allowed.max_error), share(reached.sted, allowed.sted),
+                     share(reached.bytes, allowed.bytes)});
 }
 
 } // namespace meshreel

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "meshreel/codecs/codec.h"
 #include "meshreel/mesh/shapes.h"
@@ -252,6 +253,19 @@ TEST(Reel, RefusesAnUnknownCodecAndAnInvalidAnimation)
     Animation broken = sample();
     broken.positions[3] = NAN;
     EXPECT_EQ(encode(broken).error().code, ErrorCode::bad_input);
+}
+
+TEST(Reel, KeepsATargetWhereOtherMeasuresAreInfinite)
+{
+    Animation animation = sample();
+    std::ranges::fill(animation.positions, 0.0f);
+    std::ranges::fill(animation.frame(3), std::numeric_limits<float>::denorm_min()); // KG: a little over nothing
+    EncodeOptions options;
+    options.quality.psnr = 43;
+    const auto encoded = encode(animation, options);
+    ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
+    EXPECT_GE(encoded->psnr, 43.0);
+    EXPECT_TRUE(decode(encoded->bytes).ok());
 }
 
 TEST(Reel, FillsTheSizeAskedFor)

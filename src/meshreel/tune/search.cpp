@@ -250,7 +250,7 @@ private:
             landing.correction *= excess / attempt.excess;
             line.correct(excess / attempt.excess);
         }
-        if (excess > 1.0 || (landing.best && excess <= landing.reached)) return Ok{};
+        if (!(excess <= 1.0) || (landing.best && excess <= landing.reached)) return Ok{};
         landing.reached = excess;
         landing.best = std::move(attempt);
         return Ok{};
