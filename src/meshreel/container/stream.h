@@ -194,6 +194,8 @@ private:
     Status check_known() const;
     Status check_counts() const;
     Status check_index();
+    static Result<StreamReader> open_with(Status (StreamReader::*find_index)(ByteSource&), ByteSource& file,
+                                          const DecodeLimits& limits);
     Status fetch_index(ByteSource& file);
     Status collect_index(ByteSource& file);
     Status fetch_preamble(ByteSource& file);

@@ -40,22 +40,22 @@ Result<Chunk> read_entry(ByteView bytes, const Index::Entry& entry)
 
 Result<StreamReader> StreamReader::open_head(ByteSource& file, const DecodeLimits& limits)
 {
-    StreamReader reader;
-    reader.limits_ = limits;
-    MESHREEL_CHECK(reader.fetch_preamble(file));
-    MESHREEL_CHECK(reader.fetch_index(file));
-    MESHREEL_CHECK(reader.check_known());
-    MESHREEL_CHECK(reader.check_counts());
-    MESHREEL_CHECK(reader.fetch_head(file));
-    return reader;
+    return open_with(&StreamReader::fetch_index, file, limits);
 }
 
 Result<StreamReader> StreamReader::open_beginning(ByteSource& file, const DecodeLimits& limits)
 {
+    return open_with(&StreamReader::collect_index, file, limits);
+}
+
+/// find_index: fills index_.
+Result<StreamReader> StreamReader::open_with(Status (StreamReader::*find_index)(ByteSource&), ByteSource& file,
+                                             const DecodeLimits& limits)
+{
     StreamReader reader;
     reader.limits_ = limits;
     MESHREEL_CHECK(reader.fetch_preamble(file));
-    MESHREEL_CHECK(reader.collect_index(file));
+    MESHREEL_CHECK((reader.*find_index)(file));
     MESHREEL_CHECK(reader.check_known());
     MESHREEL_CHECK(reader.check_counts());
     MESHREEL_CHECK(reader.fetch_head(file));
