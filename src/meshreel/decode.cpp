@@ -6,6 +6,7 @@
 #include "meshreel/container/explain.h"
 #include "meshreel/container/package.h"
 #include "meshreel/level.h"
+#include "meshreel/mesh/reorder.h"
 #include "meshreel/meshreel.h"
 #include "meshreel/shown_frames.h"
 
@@ -20,9 +21,9 @@ using container::StreamReader;
 std::vector<float> spread(const Matrix<float>& frames, std::span<const std::uint32_t> surface_of)
 {
     std::vector<float> positions(frames.rows * surface_of.size() * 3);
-    float* out = positions.data();
+    const std::size_t width = 3 * surface_of.size();
     for (std::size_t f = 0; f < frames.rows; ++f)
-        for (std::uint32_t v : surface_of) out = std::copy_n(frames.row(f).data() + 3ul * v, 3, out);
+        reorder_frame(frames.row(f), surface_of, std::span(positions).subspan(f * width, width));
     return positions;
 }
 
@@ -37,8 +38,7 @@ struct Opening {
 Result<std::uint64_t> bytes_of_level(const codecs::Codec& codec, const container::Segment& beginning,
                                      const DecodeOptions& options)
 {
-    MESHREEL_TRY(const std::vector<std::uint64_t> bytes,
-                 codec.level_bytes({beginning.payload, beginning.payload_offset, "SEGM"}, options.limits));
+    MESHREEL_TRY(const std::vector<std::uint64_t> bytes, codec.level_bytes(beginning.source(), options.limits));
     return bytes[beginning.first_frame == 0 ? std::min<std::size_t>(options.level, bytes.size() - 1) : 0];
 }
 
@@ -47,12 +47,7 @@ Result<Level> level_asked_for(const Opening& reel, const codecs::Codec& codec, c
                               const DecodeOptions& options)
 {
     MESHREEL_TRY(const container::Segment first, reel.segments.holding(0));
-    return level_of(codec,
-                    {{first.payload, first.payload_offset, "SEGM"},
-                     input.topology.surface,
-                     first.frame_count,
-                     options.limits,
-                     options.threads},
+    return level_of(codec, {first.source(), input.topology.surface, first.frame_count, options.limits, options.threads},
                     input, options.level);
 }
 

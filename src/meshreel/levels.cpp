@@ -60,8 +60,7 @@ Result<std::vector<std::uint64_t>> level_bytes(const container::StreamReader& fi
     std::uint64_t besides = file.file().size();
     for (const container::Segment& segment : segments) besides -= segment.payload.size();
     for (std::size_t s = 0; s < segments.size(); ++s) {
-        MESHREEL_TRY(const std::vector<std::uint64_t> ends,
-                     codec.level_bytes({segments[s].payload, segments[s].payload_offset, "SEGM"}, file.limits()));
+        MESHREEL_TRY(const std::vector<std::uint64_t> ends, codec.level_bytes(segments[s].source(), file.limits()));
         if (s == 0) bytes.resize(ends.size(), besides);
         for (std::size_t level = 1; level < bytes.size(); ++level) bytes[level] += s == 0 ? ends[level] : ends[0];
     }

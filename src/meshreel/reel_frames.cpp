@@ -1,9 +1,8 @@
 /// The frames of a .reel file, of which one segment is decoded at a time.
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/segments.h"
+#include "meshreel/mesh/reorder.h"
 #include "meshreel/meshreel.h"
 
 namespace meshreel {
@@ -42,9 +41,7 @@ public:
         if (room.rows != count || room.cols != width) room = Matrix<float>(count, width);
         for (std::size_t i = 0; i < count; ++i) {
             if (first + i - held_first_ >= held_.rows) MESHREEL_CHECK(hold(static_cast<std::uint32_t>(first + i)));
-            const std::span<const float> posed = held_.row(first + i - held_first_);
-            float* out = room.row(i).data();
-            for (const std::uint32_t v : topology_.surface_of) out = std::copy_n(posed.data() + 3ul * v, 3, out);
+            reorder_frame(held_.row(first + i - held_first_), topology_.surface_of, room.row(i));
         }
         return MatrixView<const float>(room.view());
     }
@@ -57,13 +54,9 @@ private:
         MESHREEL_TRY(const container::Segment segment, segments_.holding(frame));
         MESHREEL_CHECK(within(options_.limits, header_.coded_vertex_count, 0, segment.frame_count));
         Matrix<float> frames(segment.frame_count, 3ul * header_.coded_vertex_count);
-        MESHREEL_CHECK(codecs::decode(*codec_,
-                                      {{segment.payload, segment.payload_offset, "SEGM"},
-                                       topology_.surface,
-                                       segment.frame_count,
-                                       options_.limits,
-                                       options_.threads},
-                                      frames.view()));
+        MESHREEL_CHECK(codecs::decode(
+            *codec_, {segment.source(), topology_.surface, segment.frame_count, options_.limits, options_.threads},
+            frames.view()));
         MESHREEL_CHECK(validate_frames(segment.first_frame, frames.view()));
         held_ = std::move(frames);
         held_first_ = segment.first_frame;

@@ -66,10 +66,7 @@ private:
 
     codecs::Coded payload_of(const Segment& segment) const
     {
-        codecs::Coded payload{{segment.payload, segment.payload_offset, "SEGM"},
-                              coded_.surface,
-                              segment.frame_count,
-                              coded_.options.limits,
+        codecs::Coded payload{segment.source(), coded_.surface, segment.frame_count, coded_.options.limits,
                               coded_.options.threads};
         if (coded_.wanted != nullptr) payload.wanted = *coded_.wanted;
         return payload;

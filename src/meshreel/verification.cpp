@@ -6,6 +6,7 @@
 
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/segments.h"
+#include "meshreel/mesh/reorder.h"
 #include "meshreel/metrics/kg.h"
 #include "meshreel/metrics/sted.h"
 
@@ -57,10 +58,8 @@ private:
     Matrix<float> spread(MatrixView<const float> decoded) const
     {
         Matrix<float> all(decoded.rows, 3 * surface_of_.size());
-        parallel_for(decoded.rows, options_.threads, [&](std::size_t f) {
-            float* out = all.row(f).data();
-            for (const std::uint32_t v : surface_of_) out = std::copy_n(decoded.row(f).data() + 3ul * v, 3, out);
-        });
+        parallel_for(decoded.rows, options_.threads,
+                     [&](std::size_t f) { reorder_frame(decoded.row(f), surface_of_, all.row(f)); });
         return all;
     }
 
@@ -100,13 +99,9 @@ Result<Difference> difference(ByteView bytes, FrameSource& source, const Verific
     for (std::uint32_t f = 0; f < header.frame_count;) {
         MESHREEL_TRY(const container::Segment segment, segments.holding(f));
         Matrix<float> frames(segment.frame_count, 3ul * header.coded_vertex_count);
-        MESHREEL_CHECK(codecs::decode(*codec,
-                                      {{segment.payload, segment.payload_offset, "SEGM"},
-                                       topology.surface,
-                                       segment.frame_count,
-                                       file.limits(),
-                                       options.threads},
-                                      frames.view()));
+        MESHREEL_CHECK(codecs::decode(
+            *codec, {segment.source(), topology.surface, segment.frame_count, file.limits(), options.threads},
+            frames.view()));
         MESHREEL_CHECK(verifier.add(f, frames.view()));
         f += segment.frame_count;
     }

@@ -138,6 +138,9 @@ struct Segment {
         io.varint("frame_count", frame_count, {1}, "frames of this segment");
         io.rest("payload", payload, "the codec's, see its own tables");
     }
+
+    /// The payload, for a codec to read.
+    Source source() const { return {payload, payload_offset, "SEGM"}; }
 };
 
 /// What a mesh is to a file of Order::base: XXH3-64 of V and the triangles, each number as u32. @cost O(T)

@@ -19,7 +19,7 @@ struct NewOrder {
 /// Attribute tables in the new order: element i gets the value that its old place had.
 Appearance reordered(const Appearance& appearance, const NewOrder& order);
 
-/// Positions of one frame [V x 3] in the new vertex order.
+/// Positions of one frame: vertex i of the result [V x 3] is where vertex_of[i] is; several may be at one.
 void reorder_frame(std::span<const float> frame, std::span<const std::uint32_t> vertex_of, std::span<float> result);
 
 } // namespace meshreel

@@ -92,12 +92,8 @@ Status Player::open_segments(container::SegmentSource& segments, const codecs::C
     means_ = Matrix<double>(frame_count(), 3);
     for (std::size_t f = 0; f < frame_count(); f += pieces_.back().count) {
         MESHREEL_TRY(const container::Segment segment, segments.holding(static_cast<std::uint32_t>(f)));
-        MESHREEL_TRY(const codecs::Opened opened,
-                     codecs::open(codec, {{segment.payload, segment.payload_offset, "SEGM"},
-                                          surface,
-                                          segment.frame_count,
-                                          options.limits,
-                                          options.threads}));
+        MESHREEL_TRY(const codecs::Opened opened, codecs::open(codec, {segment.source(), surface, segment.frame_count,
+                                                                       options.limits, options.threads}));
         const codecs::Trajectories& trajectories = std::get<codecs::Trajectories>(opened);
         const std::uint64_t K = trajectories.C.cols;
         MESHREEL_CHECK(budget.take(4 * K * (blocks() * kernel_.block + 3ull * segment.frame_count + 12), "SEGM"));
