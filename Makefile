@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz bench bench-effort bench-rate bench-scale figures format docs clean
+.PHONY: build demo check test fuzz bench bench-effort bench-rate bench-scale bench-search figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -30,6 +30,9 @@ bench-effort: build ## the table of docs/effort.md
 
 bench-scale: build  ## how cost grows with V and F: the table of docs/benchmarks.md
 	bench/scale.py
+
+bench-search: build ## what looking for a target costs, in encodes
+	bench/search.py
 
 bench-rate: build   ## rates at given errors beside what they must be: bench/ledger.csv and the README's table
 	bench/rate.py --ledger bench/ledger.csv

@@ -6,14 +6,12 @@ processor seconds of one thread, the best of several.
 """
 # SPDX-License-Identifier: MIT
 import argparse
-import json
 import os
-import resource
-import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from command import ROOT, declare, paths_of, timed
+
 GENERATED = {"generated cloth": ["cloth", "--vertices", "4000", "--frames", "150"],
              "generated swimmer": ["swimmer", "--vertices", "4000", "--frames", "150"]}
 REAL = ["dance", "cow"]
@@ -23,40 +21,29 @@ BEGIN, END = "<!-- made by bench/effort.py: begin -->\n", "<!-- end -->\n"
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--command", default=os.path.join(ROOT, "build/meshreel"))
-    parser.add_argument("--data", default=os.path.join(ROOT, "../shared/data"))
+    declare(parser)
     parser.add_argument("--kg", default="0.1")
     parser.add_argument("--runs", type=int, default=2)
     parser.add_argument("--write", action="store_true", help="put the table into docs/effort.md")
     return parser.parse_args()
 
 
-def run(options, *words):
-    """The figures of a command, and its processor seconds."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    done = subprocess.run([options.command, *words, "-q", "--json"], stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}: exit code {done.returncode}")
-    return json.loads(done.stdout), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-
-
 def measured(options, folder, motion, how):
     reel, back = os.path.join(folder, "a.reel"), os.path.join(folder, "b.pc2")
     encode = ["encode", *motion, reel, "-y", "--order", "free", "--kg", options.kg, "--threads", "1", *how]
-    encodes = [run(options, *encode) for _ in range(options.runs)]
-    decodes = [run(options, "decode", reel, back, "-y", "--threads", "1")[1] for _ in range(options.runs)]
+    encodes = [timed(options.command, *encode) for _ in range(options.runs)]
+    decodes = [timed(options.command, "decode", reel, back, "-y", "--threads", "1")[1] for _ in range(options.runs)]
     return encodes[0][0]["bpfv"], min(seconds for _, seconds in encodes), min(decodes)
 
 
 def sources(options, folder):
     for name, words in GENERATED.items():
         path = os.path.join(folder, words[0])
-        run(options, "generate", words[0], path + ".pc2", "--mesh", path + ".obj", *words[1:])
+        timed(options.command, "generate", words[0], path + ".pc2", "--mesh", path + ".obj", *words[1:])
         yield name, [path + ".pc2", "--mesh", path + ".obj"]
     for name in REAL:
-        data = os.path.join(options.data, name)
-        if os.path.exists(os.path.join(data, "motion.pc2")):
-            yield name, [os.path.join(data, "motion.pc2"), "--mesh", os.path.join(data, "mesh.obj")]
+        if paths := paths_of(options.data, name):
+            yield name, [paths[0], "--mesh", paths[1]]
 
 
 def main():

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-from rate import ROOT, run
+from command import declare, paths_of, run
 
 SEQUENCES = ("bone", "chicken", "cloth", "cow", "crane", "dance", "dolphin", "flag", "horse_gallop", "snake", "walker")
 HEADER = 32  # bytes before the positions of a PC2 file
@@ -28,8 +28,7 @@ def size_of(command, raw):
 
 
 def measure(name, options, folder):
-    data = os.path.join(options.data, name)
-    motion, mesh = os.path.join(data, "motion.pc2"), os.path.join(data, "mesh.obj")
+    motion, mesh = paths_of(options.data, name)
     reel, back = os.path.join(folder, "a.reel"), os.path.join(folder, "a.pc2")
     figures = run(options.command, "encode", motion, "--mesh", mesh, reel, "--lossless", "-y")
     decoding = run(options.command, "decode", reel, back, "-y")
@@ -52,8 +51,7 @@ def measure(name, options, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--command", default=os.path.join(ROOT, "build/meshreel"))
-    parser.add_argument("--data", default=os.path.join(ROOT, "../shared/data"))
+    declare(parser)
     parser.add_argument("sequences", nargs="*", help="default: all")
     options = parser.parse_args()
     columns = ("ours", "order kept", "fpzip", "zfp", "zstd", "xz")
@@ -61,7 +59,7 @@ def main():
     beaten = True
     with tempfile.TemporaryDirectory() as folder:
         for name in options.sequences or SEQUENCES:
-            if not os.path.exists(os.path.join(options.data, name, "motion.pc2")):
+            if not paths_of(options.data, name):
                 print(f"{name}: skipped, its data are not here")
                 continue
             rates, encode_s, decode_s = measure(name, options, folder)

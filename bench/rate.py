@@ -7,14 +7,13 @@ the decoded PC2. Where the plan gives no rate, it is half of what RBFP with Cobr
 # SPDX-License-Identifier: MIT
 import argparse
 import csv
-import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from command import ROOT, bpfv, declare, paths_of, run
+
 FIVE = ("dance", "chicken", "cow", "horse_gallop", "crane")
 # (measure, value): bits per frame and vertex that must be met and that are aimed at.
 PLAN = {("dance", "kg", 0.090): (0.310, 0.23), ("chicken", "kg", 0.371): (0.405, 0.30), ("cow", "kg", 0.598): (0.530, 0.40)}
@@ -28,8 +27,7 @@ COLUMNS = ["sequence", "measure", "asked", "kg", "sted", "bytes", "bpfv", "must"
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--command", default=os.path.join(ROOT, "build/meshreel"))
-    parser.add_argument("--data", default=os.path.join(ROOT, "../shared/data"))
+    declare(parser)
     parser.add_argument("--codec", default="reel")
     parser.add_argument("--entropy", default="range", choices=("range", "huffman"))
     parser.add_argument("--effort", type=int, help="of the encoder; default: its own")
@@ -40,18 +38,10 @@ def arguments():
     return parser.parse_args()
 
 
-def run(command, *options):
-    done = subprocess.run([command, *map(str, options), "--json", "-q"], stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, options))}: exit code {done.returncode}")
-    return json.loads(done.stdout)
-
-
 class Sequence:
     def __init__(self, name, options, folder):
         self.options = options
-        data = os.path.join(options.data, name)
-        self.motion, self.mesh = os.path.join(data, "motion.pc2"), os.path.join(data, "mesh.obj")
+        self.motion, self.mesh = paths_of(options.data, name)
         self.reel, self.decoded = os.path.join(folder, name + ".reel"), os.path.join(folder, name + ".pc2")
 
     def encode(self, measure, value, *how):
@@ -64,10 +54,6 @@ class Sequence:
         found = run(self.options.command, "compare", self.motion, self.decoded, "--mesh", self.mesh, "--order", "free")
         os.remove(self.decoded)
         return found["metrics"]
-
-
-def bpfv(figures):
-    return 8 * figures["reel_bytes"] / (figures["vertices"] * figures["frames"])  # (9.1)
 
 
 def row_of(sequence, key, options):
@@ -131,7 +117,7 @@ def main():
         for key in PLAN:
             if options.sequences and key[0] not in options.sequences:
                 continue
-            if not os.path.exists(os.path.join(options.data, key[0], "motion.pc2")):
+            if not paths_of(options.data, key[0]):
                 print(f"{key[0]:<14}skipped, its data are not here")
                 continue
             row, seconds = row_of(Sequence(key[0], options, folder), key, options)

@@ -4,35 +4,23 @@ docs/benchmarks.md. Times are processor time (user) of the whole command on one 
 of the whole process."""
 # SPDX-License-Identifier: MIT
 import argparse
-import json
 import os
-import resource
-import subprocess
-import sys
 import tempfile
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from command import declare, timed
+
 GROWING_V = [("cloth", V, 30) for V in (10_000, 50_000, 100_000, 500_000)]
 GROWING_F = [("walker", 2_500, F) for F in (250, 500, 1000, 2000)] + [("walker", 10_000, F) for F in (500, 1000, 2000)]
-
-
-def run(command, *options):
-    """What the command says, and the processor time that it took."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    done = subprocess.run([command, *map(str, options), "--json", "-q"], stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, options))}: exit code {done.returncode}")
-    return json.loads(done.stdout), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def row(command, sequence, effort, folder):
     shape, V, F = sequence
     mesh, motion, reel, back = (os.path.join(folder, name) for name in ("m.obj", "m.pc2", "m.reel", "b.pc2"))
-    run(command, "generate", shape, motion, "--mesh", mesh, "--vertices", V, "--frames", F, "-y")
-    encoding, encode_s = run(command, "encode", motion, reel, "--mesh", mesh, "--kg", 0.1, "-e", effort, "--threads", 1,
+    timed(command, "generate", shape, motion, "--mesh", mesh, "--vertices", V, "--frames", F, "-y")
+    encoding, encode_s = timed(command, "encode", motion, reel, "--mesh", mesh, "--kg", 0.1, "-e", effort, "--threads", 1,
                              "--fps", 25, "-y")
-    decoding, decode_s = run(command, "decode", reel, back, "--threads", 1, "-y")
-    information, _ = run(command, "info", reel)
+    decoding, decode_s = timed(command, "decode", reel, back, "--threads", 1, "-y")
+    information, _ = timed(command, "info", reel)
     segments = sum(chunk["type"] == "SEGM" for chunk in information["chunks"])
     for path in (mesh, motion, reel, back):
         os.remove(path)
@@ -44,7 +32,7 @@ def row(command, sequence, effort, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--command", default=os.path.join(ROOT, "build/meshreel"))
+    declare(parser)
     parser.add_argument("--effort", type=int, default=2)
     parser.add_argument("--most", type=float, default=1e9, help="leave out sequences of more vertices times frames")
     options = parser.parse_args()
