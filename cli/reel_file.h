@@ -13,6 +13,9 @@ namespace meshreel::cli {
 /// verified. @fails usage: no such frame; io, bad_input, unsupported; naming the file.
 Result<Animation> load_reel(const Source& source, Console& console);
 
+/// The same, segment by segment, where all frames are asked for as they are stored; a file that is read once.
+Result<std::unique_ptr<FrameSource>> open_reel(const Source& source, Console& console);
+
 /// The base mesh that `source.base` names, or an empty animation where it names none.
 Result<Animation> load_base(const Source& source, Console& console);
 

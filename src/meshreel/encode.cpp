@@ -408,16 +408,4 @@ Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options)
     return encoding->encode();
 }
 
-Animation in_free_order(const Animation& animation, Threads threads)
-{
-    const connectivity::Encoded topology = connectivity::encode(
-        {animation.vertex_count, animation.triangles, weld(animation, threads).unique_of}, Order::free);
-    Animation result = animation;
-    result.triangles = topology.topology.triangles;
-    for (std::size_t f = 0; f < animation.frame_count(); ++f)
-        reorder_frame(animation.frame(f), topology.vertex_of, result.frame(f));
-    result.appearance = reordered(animation.appearance, {topology.vertex_of, topology.corner_of});
-    return result;
-}
-
 } // namespace meshreel

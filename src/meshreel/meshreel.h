@@ -16,7 +16,7 @@
 #include "meshreel/codecs/settings.h"
 #include "meshreel/io/io.h"
 #include "meshreel/mesh/frame_source.h"
-#include "meshreel/metrics/metric.h"
+#include "meshreel/metrics/measure.h"
 #include "meshreel/tune/effort.h"
 
 namespace meshreel {
@@ -103,6 +103,8 @@ Result<std::unique_ptr<FrameSource>> open_frames(ByteSource& reel, const DecodeO
 
 /// The animation numbered as Order::free would give it back: to compare a decoded file with its original.
 Animation in_free_order(const Animation& animation, Threads threads = {});
+/// The same of frames that are read when they are needed. The source must outlive it. @fails as the source does.
+Result<std::unique_ptr<FrameSource>> in_free_order(FrameSource& source, Threads threads = {});
 
 /// What a .reel file says of itself, without decoding the positions.
 struct Info {

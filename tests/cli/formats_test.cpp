@@ -59,10 +59,10 @@ TEST_F(Formats, APointCacheWithoutItsMeshIsAUsageError)
 TEST_F(Formats, EqualAnimationsCompareAsExactlyZero)
 {
     make_cache();
-    const auto json = good("compare motion.pc2 motion.pc2 --mesh mesh.obj --max-kg 0 --json").json();
-    EXPECT_EQ(json["schema"], "meshreel.compare/1");
+    const auto json = good("compare motion.pc2 motion.pc2 --mesh mesh.obj --fail-above kg=0 --json").json();
+    EXPECT_EQ(json["schema"], "meshreel.compare/2");
     EXPECT_EQ(json["metrics"]["kg"], 0.0);
-    EXPECT_EQ(json["thresholds"][0]["met"], true);
+    EXPECT_EQ(json["bounds"][0]["met"], true);
     EXPECT_EQ(json["met"], true);
 }
 
@@ -70,11 +70,11 @@ TEST_F(Formats, AMissedThresholdExitsSevenAndStillTellsTheFigures)
 {
     make_cache();
     good("generate wave other.pc2 --vertices 60 --frames 8 --seed 9");
-    const Outcome outcome = run("compare motion.pc2 other.pc2 --mesh mesh.obj --max-kg 0.001 --json");
+    const Outcome outcome = run("compare motion.pc2 other.pc2 --mesh mesh.obj --fail-above kg=0.001,sted=9 --json");
     EXPECT_EQ(outcome.exit_code, 7);
     EXPECT_EQ(outcome.json()["met"], false);
     EXPECT_GT(outcome.json()["metrics"]["kg"], 0.001);
-    EXPECT_THAT(outcome.err, HasSubstr("--max-kg 0.001"));
+    EXPECT_THAT(outcome.err, HasSubstr("--fail-above kg=0.001: KG error is"));
 }
 
 TEST_F(Formats, AnimationsOfDifferentSizeAreNotCompared)

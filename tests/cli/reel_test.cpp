@@ -173,7 +173,7 @@ TEST_F(Reel, DecodeWritesASequence)
     good("decode a.reel back.####.obj");
     EXPECT_TRUE(exists("back.0000.obj") && exists("back.0011.obj"));
     EXPECT_FALSE(exists("back.0012.obj"));
-    good("compare a.reel back.####.obj --fps 25 --max-error-relative 0.0001");
+    good("compare a.reel back.####.obj --fps 25 --fail-above max_error_relative=0.0001");
 }
 
 TEST_F(Reel, ABaseMeshOnBothSidesNeedsNoConnectivity)
@@ -203,8 +203,8 @@ TEST_F(Reel, AFileWithoutOrderIsComparedInItsOwn)
     EXPECT_EQ(good("info a.reel --json").json()["order"], "free");
     EXPECT_LE(metrics()["sted"], 0.02);
     good("decode a.reel free.pc2");
-    good("compare motion.pc2 free.pc2 --mesh mesh.obj --order free --max-sted 0.02");
-    EXPECT_EQ(run("compare motion.pc2 free.pc2 --mesh mesh.obj --max-sted 0.02").exit_code, 7);
+    good("compare motion.pc2 free.pc2 --mesh mesh.obj --order free --fail-above sted=0.02");
+    EXPECT_EQ(run("compare motion.pc2 free.pc2 --mesh mesh.obj --fail-above sted=0.02").exit_code, 7);
 }
 
 TEST_F(Reel, AFileGoesThroughPipes)

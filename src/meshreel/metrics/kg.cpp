@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "meshreel/metrics/vertex_error.h"
+
 namespace meshreel::metrics {
 
 namespace {
@@ -35,6 +37,35 @@ FrameSums frame_sums(std::span<const T> original, std::span<const T> distorted)
     return {axes[0].error + axes[1].error + axes[2].error, axes[0].spread + axes[1].spread + axes[2].spread};
 }
 
+double kg_of(double error, double spread)
+{
+    if (error == 0.0) return 0.0;
+    if (spread == 0.0) return std::numeric_limits<double>::infinity();
+    return 100.0 * std::sqrt(error) / std::sqrt(spread); // (5.2)
+}
+
+class KgMeasurement : public Measurement {
+public:
+    explicit KgMeasurement(const Context& context) : running_(context.threads), distances_(context.vertex_errors) {}
+
+    void add(const Frames& frames) override
+    {
+        running_.add(Pair<float>{frames.original, frames.distorted, {}});
+        distances_.add(frames);
+    }
+    std::vector<double> finish(const Progress&) override { return {running_.value()}; }
+    std::vector<double> per_frame() const override { return running_.per_frame(); }
+
+private:
+    RunningKg running_;
+    VertexDistances distances_;
+};
+
+std::unique_ptr<Measurement> start_kg(const Context& context)
+{
+    return std::make_unique<KgMeasurement>(context);
+}
+
 template <class T>
 double measured_kg(const Pair<T>& pair, Threads threads)
 {
@@ -54,6 +85,7 @@ void RunningKg::add_frames(const Pair<T>& pair)
     for (const FrameSums& frame : frames) {
         error_ += frame.error;
         spread_ += frame.spread;
+        per_frame_.push_back(kg_of(frame.error, frame.spread));
     }
 }
 
@@ -68,9 +100,19 @@ void RunningKg::add(const Pair<double>& frames)
 
 double RunningKg::value() const
 {
-    if (error_ == 0.0) return 0.0;
-    if (spread_ == 0.0) return std::numeric_limits<double>::infinity();
-    return 100.0 * std::sqrt(error_) / std::sqrt(spread_); // (5.2)
+    return kg_of(error_, spread_);
+}
+
+Metric kg_row()
+{
+    static constexpr std::array values{
+        Value{"kg", "KG error", "%", "thesis (5.2)", 0.0, Better::less, {true, true, true, true}}};
+    return {.name = "kg",
+            .title = "difference over motion and shape, as Karni and Gotsman",
+            .values = values,
+            .vertex_title = "distance",
+            .vertex_unit = "units",
+            .start = start_kg};
 }
 
 double kg_error(const Pair<float>& pair, Threads threads)

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "meshreel/base/parallel.h"
+#include "meshreel/metrics/metric.h"
 #include "meshreel/metrics/motion.h"
 
 namespace meshreel::metrics {
@@ -20,6 +23,8 @@ public:
     void add(const Pair<float>& frames);
     void add(const Pair<double>& frames);
     double value() const;
+    /// [F] of each frame alone.
+    const std::vector<double>& per_frame() const { return per_frame_; }
 
 private:
     template <class T>
@@ -28,7 +33,11 @@ private:
     Threads threads_;
     double error_ = 0.0;  ///< |A - A'|^2
     double spread_ = 0.0; ///< |A - E(A)|^2
+    std::vector<double> per_frame_;
 };
+
+/// "kg"; its vertex errors are the distances |p - p'|.
+Metric kg_row();
 
 /// Of two animations with the same V and F.
 inline double kg_error(const Animation& original, const Animation& distorted, Threads threads = {})

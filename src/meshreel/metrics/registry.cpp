@@ -1,8 +1,11 @@
-/// The one table of metrics, and the question whether two animations can be compared.
+/// The one table of measures, and the question whether two animations can be compared.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <string>
 
 #include "meshreel/base/text.h"
 #include "meshreel/metrics/kg.h"
@@ -14,47 +17,91 @@ namespace meshreel::metrics {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Invariance all_three{true, true, true}, but_rotation{true, false, true}, but_scale{true, true, false};
+/// The place of a parameter, or how many there are where there is none of that name.
+std::size_t parameter_place(const Metric& metric, std::string_view name)
+{
+    const auto found = std::ranges::find(metric.parameters, name, &Parameter::name);
+    return static_cast<std::size_t>(found - metric.parameters.begin());
+}
 
-constexpr std::array table{
-    Metric{"kg", "KG error", "%", "thesis (5.2)", 0.0, all_three, kg_error},
-    Metric{"rms", "RMS error", "units", "root mean squared vertex distance", 0.0, but_scale, rms_error},
-    Metric{"max_error", "largest error", "units", "largest vertex distance", 0.0, but_scale, max_error},
-    Metric{"max_error_relative", "largest error", "% of the body diagonal", "largest vertex distance", 0.0,
-           but_rotation, max_error_relative},
-    Metric{"psnr", "PSNR", "dB", "thesis 5.1, as 10 log10(D^2 / MSE)", infinity, but_rotation, psnr},
-    Metric{"sted", "STED", "", "thesis (7.4)-(7.14)", 0.0, all_three, sted_error},
-};
+std::string text_of(double number)
+{
+    std::array<char, 32> room{};
+    return {room.data(), std::to_chars(room.data(), room.data() + room.size(), number).ptr};
+}
+
+Status differ(const char* what, std::size_t original, std::size_t distorted, const char* field)
+{
+    if (original == distorted) return Ok{};
+    return bad_input(concat("the original has ", original, " ", what, ", the other ", distorted), field);
+}
 
 } // namespace
 
 std::span<const Metric> all()
 {
+    static const std::array table{
+        vertex_error_row(),
+        kg_row(),
+        sted_row(),
+    };
     return table;
 }
 
 const Metric* find(std::string_view name)
 {
-    const auto found =
-        std::find_if(table.begin(), table.end(), [&](const Metric& metric) { return metric.name == name; });
-    return found == table.end() ? nullptr : &*found;
+    const auto found = std::ranges::find(all(), name, &Metric::name);
+    return found == all().end() ? nullptr : &*found;
 }
 
-Status comparable(const Animation& original, const Animation& distorted)
+FoundValue find_value(std::string_view name)
 {
-    if (original.vertex_count != distorted.vertex_count)
-        return bad_input(
-            concat("the original has ", original.vertex_count, " vertices, the other ", distorted.vertex_count),
-            "vertex_count");
-    if (original.frame_count() != distorted.frame_count())
-        return bad_input(
-            concat("the original has ", original.frame_count(), " frames, the other ", distorted.frame_count()),
-            "frame_count");
-    if (original.triangles.size() != distorted.triangles.size())
-        return bad_input(concat("the original has ", original.triangles.size(), " triangles, the other ",
-                                distorted.triangles.size()),
-                         "triangles");
+    for (const Metric& metric : all())
+        for (std::size_t i = 0; i < metric.values.size(); ++i)
+            if (metric.values[i].name == name) return {&metric, i};
+    return {};
+}
+
+double Context::parameter(std::string_view name) const
+{
+    const std::size_t place = parameter_place(metric, name);
+    assert(place < parameters.size());
+    return parameters[place];
+}
+
+std::vector<double> usual_parameters(const Metric& metric)
+{
+    std::vector<double> parameters;
+    for (const Parameter& parameter : metric.parameters) parameters.push_back(parameter.usual);
+    return parameters;
+}
+
+Status set_parameter(const Metric& metric, std::string_view name, double value, std::span<double> parameters)
+{
+    const std::size_t place = parameter_place(metric, name);
+    if (place == metric.parameters.size()) {
+        std::string known;
+        for (const Parameter& parameter : metric.parameters) known += concat(known.empty() ? "" : ", ", parameter.name);
+        return Error{ErrorCode::usage, concat(metric.name, " has no parameter ", name, "; it has ",
+                                              known.empty() ? std::string("none") : known)};
+    }
+    const Parameter& parameter = metric.parameters[place];
+    if (!(value >= parameter.least && value <= parameter.most) || (parameter.whole && std::floor(value) != value))
+        return Error{ErrorCode::usage,
+                     concat(metric.name, ".", name, " must be a ", parameter.whole ? "whole " : "", "number from ",
+                            text_of(parameter.least), " to ", text_of(parameter.most))};
+    parameters[place] = value;
+    return Ok{};
+}
+
+Status comparable(const Animation& original, const Animation& distorted, Common common)
+{
+    const bool triangles = common == Common::triangles;
+    if (triangles) MESHREEL_CHECK(differ("vertices", original.vertex_count, distorted.vertex_count, "vertex_count"));
+    if (common != Common::nothing)
+        MESHREEL_CHECK(differ("frames", original.frame_count(), distorted.frame_count(), "frame_count"));
+    if (!triangles) return Ok{};
+    MESHREEL_CHECK(differ("triangles", original.triangles.size(), distorted.triangles.size(), "triangles"));
     for (std::size_t t = 0; t < original.triangles.size(); ++t)
         if (original.triangles[t] != distorted.triangles[t])
             return bad_input(concat("triangle ", t, " is another one in the other animation"), "triangles");

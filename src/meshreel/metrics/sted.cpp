@@ -94,30 +94,46 @@ public:
     template <class T>
     void add(const Pair<T>& pair)
     {
-        std::vector<double> parts(pair.frame_count(), 0.0);
+        Parts parts{std::vector<double>(pair.frame_count(), 0.0), {}};
+        if (options_.vertex_errors) parts.deviations = Matrix<double>(pair.frame_count(), vertex_count_);
         add_run(pair, first_run_, parts);
         for (std::uint32_t v = first_run_.size(); v < vertex_count_;) {
             const NearEdges::Run run = near_.run_from(v);
             add_run(pair, run, parts);
             v += run.size();
         }
-        for (double part : parts) sum_ += part;
-        frames_ += parts.size();
+        for (std::size_t f = 0; f < parts.sums.size(); ++f) {
+            sum_ += parts.sums[f];
+            if (options_.vertex_errors) options_.vertex_errors(per_frame_.size(), parts.deviations.row(f));
+            per_frame_.push_back(parts.sums[f] / static_cast<double>(vertex_count_));
+        }
     }
 
-    double value() const { return sum_ / (static_cast<double>(vertex_count_) * static_cast<double>(frames_)); } // (7.8)
+    double value() const // (7.8)
+    {
+        return sum_ / (static_cast<double>(vertex_count_) * static_cast<double>(per_frame_.size()));
+    }
+    const std::vector<double>& per_frame() const { return per_frame_; }
 
 private:
+    /// What some frames add.
+    struct Parts {
+        std::vector<double> sums;  ///< of the deviations of each frame
+        Matrix<double> deviations; ///< [N x V], where somebody is told
+    };
+
     template <class T>
-    void add_run(const Pair<T>& pair, const NearEdges::Run& run, std::vector<double>& parts) const
+    void add_run(const Pair<T>& pair, const NearEdges::Run& run, Parts& parts) const
     {
-        parallel_for((parts.size() + lanes - 1) / lanes, options_.threads, [&](std::size_t block) {
+        parallel_for((pair.frame_count() + lanes - 1) / lanes, options_.threads, [&](std::size_t block) {
             const std::vector<Stretch> all = stretches(pair, near_, block * lanes, options_.absolute_difference);
-            const std::size_t first = block * lanes, used = std::min(lanes, parts.size() - first);
+            const std::size_t first = block * lanes, used = std::min(lanes, pair.frame_count() - first);
             for (std::size_t i = 0; i < run.size(); ++i) {
                 const Lanes deviation =
                     deviations(all, {run.edges.data() + run.first[i], run.first[i + 1] - run.first[i]});
-                for (std::size_t lane = 0; lane < used; ++lane) parts[first + lane] += deviation[lane];
+                for (std::size_t lane = 0; lane < used; ++lane) parts.sums[first + lane] += deviation[lane];
+                for (std::size_t lane = 0; lane < used && options_.vertex_errors; ++lane)
+                    parts.deviations(first + lane, run.begin + i) = deviation[lane];
             }
         });
     }
@@ -127,7 +143,7 @@ private:
     NearEdges near_;
     NearEdges::Run first_run_; ///< mostly the only one
     double sum_ = 0.0;
-    std::size_t frames_ = 0;
+    std::vector<double> per_frame_;
 };
 
 /// The mean over the temporal edges that lie in the window of frames f - w .. f + w with both their ends (7.11).
@@ -272,7 +288,72 @@ Sted measured_sted(const Pair<T>& pair, const StedOptions& options)
     return running.finish();
 }
 
+class StedMeasurement : public Measurement {
+public:
+    explicit StedMeasurement(const Context& context)
+        : triangles_(context.original.triangles), running_(context.original.vertex_count, triangles_, options(context))
+    {
+    }
+
+    void add(const Frames& frames) override
+    {
+        running_.add(Pair<float>{frames.original, frames.distorted, triangles_});
+    }
+    std::vector<double> finish(const Progress&) override
+    {
+        const Sted sted = running_.finish();
+        return {sted.total, sted.spatial, sted.temporal};
+    }
+    std::vector<double> per_frame() const override { return running_.spatial_per_frame(); }
+
+private:
+    static StedOptions options(const Context& context)
+    {
+        return {.distance = static_cast<std::uint32_t>(context.parameter("distance")),
+                .window = static_cast<std::uint32_t>(context.parameter("window")),
+                .frame_distance = context.parameter("frame_distance"),
+                .temporal_weight = context.parameter("temporal_weight"),
+                .absolute_difference = context.parameter("absolute_difference") != 0.0,
+                .threads = context.threads,
+                .vertex_errors = context.vertex_errors};
+    }
+
+    std::span<const Triangle> triangles_;
+    RunningSted running_;
+};
+
+std::unique_ptr<Measurement> start_sted(const Context& context)
+{
+    return std::make_unique<StedMeasurement>(context);
+}
+
 } // namespace
+
+Metric sted_row()
+{
+    constexpr Invariance all_four{true, true, true, true}, but_duration{true, true, true, false};
+    const StedOptions usual;
+    static constexpr std::array values{
+        Value{"sted", "STED", "", "thesis (7.14)", 0.0, Better::less, but_duration},
+        Value{"sted_spatial", "STED in space", "", "thesis (7.8)", 0.0, Better::less, all_four},
+        Value{"sted_temporal", "STED in time", "", "thesis (7.13)", 0.0, Better::less, but_duration},
+    };
+    static const std::array parameters{
+        Parameter{"distance", "how many edges away an edge counts as near", "edges",
+                  static_cast<double>(usual.distance), 0, 1e3, true},
+        Parameter{"window", "frames on either side that a speed is averaged over", "frames",
+                  static_cast<double>(usual.window), 1, 1e6, true},
+        Parameter{"frame_distance", "the time between two frames", "body sizes", usual.frame_distance, 1e-9, 1e9},
+        Parameter{"temporal_weight", "what the temporal part counts", "", usual.temporal_weight, 0, 1e9},
+        Parameter{"absolute_difference", "1: (7.5) as printed, without the sign", "", 0, 0, 1, true},
+    };
+    return {.name = "sted",
+            .title = "spatio-temporal edge difference",
+            .values = values,
+            .parameters = parameters,
+            .vertex_title = "deviation of edge lengths",
+            .start = start_sted};
+}
 
 struct RunningSted::Parts {
     Spatial spatial;
@@ -297,6 +378,11 @@ void RunningSted::add(const Pair<double>& frames)
 {
     parts_->spatial.add(frames);
     parts_->temporal.add(frames);
+}
+
+const std::vector<double>& RunningSted::spatial_per_frame() const
+{
+    return parts_->spatial.per_frame();
 }
 
 Sted RunningSted::finish()

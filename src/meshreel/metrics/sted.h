@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "meshreel/base/parallel.h"
+#include "meshreel/metrics/metric.h"
 #include "meshreel/metrics/motion.h"
 
 namespace meshreel::metrics {
@@ -19,6 +20,8 @@ struct StedOptions {
     /// own tool and the figures in the thesis have them.
     bool absolute_difference = false;
     Threads threads;
+    /// Told the deviation (7.7) of each vertex in frame after frame; may be empty.
+    VertexErrors vertex_errors = {};
 };
 
 /// STED and its parts; all without unit, >= 0, larger is worse.
@@ -55,11 +58,16 @@ public:
     void add(const Pair<double>& frames);
     /// Of all frames added. To be called once, at the end. @pre a frame was added
     Sted finish();
+    /// [F] the spatial part of each frame alone.
+    const std::vector<double>& spatial_per_frame() const;
 
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
+
+/// "sted": total, spatial and temporal part; its vertex errors are the deviations (7.7).
+Metric sted_row();
 
 /// The total, with the default constants.
 double sted_error(const Animation& original, const Animation& distorted, Threads threads = {});

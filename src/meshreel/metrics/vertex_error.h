@@ -1,8 +1,11 @@
-/// Measures of how far vertices are from where they were: RMS, largest error, PSNR.
+/// Measures of how far vertices are from where they were: MSE, RMS, largest error, PSNR.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "meshreel/base/parallel.h"
+#include "meshreel/metrics/metric.h"
 #include "meshreel/metrics/motion.h"
 
 namespace meshreel::metrics {
@@ -23,9 +26,12 @@ public:
     explicit RunningVertexError(Threads threads = {}) : threads_(threads) {}
     void add(const Pair<float>& frames);
     VertexError value() const;
+    /// [F] root of the mean squared distance of each frame alone.
+    const std::vector<double>& per_frame() const { return per_frame_; }
 
 private:
     Threads threads_;
+    std::vector<double> per_frame_;
     double square_ = 0.0, largest_square_ = 0.0;
     std::size_t points_ = 0; ///< F V
 };
@@ -45,5 +51,19 @@ double max_error_relative(const Animation& original, const Animation& distorted,
 /// where D is 0 and they differ.  @source thesis 5.1
 // DEVIATES (5.1): printed as 20 log of a mean square, without its sign.
 double psnr(const Animation& original, const Animation& distorted, Threads threads = {});
+
+/// Tells the distances |p - p'| of the vertices of frame after frame to whoever wants to know; model units.
+class VertexDistances {
+public:
+    explicit VertexDistances(VertexErrors told) : told_(std::move(told)) {}
+    void add(const Frames& frames);
+
+private:
+    VertexErrors told_;
+    std::size_t frame_ = 0;
+};
+
+/// "vertex_error": RMS, MSE, largest error, PSNR and (5.1) as printed; its vertex errors are the distances.
+Metric vertex_error_row();
 
 } // namespace meshreel::metrics
