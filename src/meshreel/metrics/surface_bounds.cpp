@@ -27,8 +27,8 @@ struct Piece {
     std::array<PieceCorner, most_piece_corners> corners;
     std::size_t count = 0;
     unsigned depth = 0;
-    Place common = 0;    ///< the triangle that bounds it
-    double upper = 0.0;  ///< no point of it is farther from `common`, squared
+    Place common = 0;   ///< the triangle that bounds it
+    double upper = 0.0; ///< no point of it is farther from `common`, squared
 
     void add(const PieceCorner& corner) { corners[count++] = corner; }
 };
@@ -95,7 +95,8 @@ class BoundSearch {
 public:
     BoundSearch(const SurfaceFrame& from, const SurfaceDistance& to, const BoundOptions& options)
         : from_(from), to_(to), options_(options), vertices_(from.positions.size() / 3, {{}, -1.0, 0})
-    {}
+    {
+    }
 
     DistanceBounds run()
     {

@@ -14,10 +14,10 @@ struct SurfaceFrame {
 };
 
 struct BoundOptions {
-    double tolerance = 0.0;           ///< upper - lower is at most this, model units, >= 0 ...
-    std::size_t most_cuts = 500000;   ///< ... unless more cuts than these were needed
-    bool same_triangles = false;      ///< triangle t of one is likely near triangle t of the other
-    std::span<double> vertices = {};  ///< [V] or empty: is filled with the distance of every vertex, model units
+    double tolerance = 0.0;          ///< upper - lower is at most this, model units, >= 0 ...
+    std::size_t most_cuts = 500000;  ///< ... unless more cuts than these were needed
+    bool same_triangles = false;     ///< triangle t of one is likely near triangle t of the other
+    std::span<double> vertices = {}; ///< [V] or empty: is filled with the distance of every vertex, model units
 };
 
 /// What is known about max over p of `from` of d(p, to), (5.16). Both bounds are true up to the rounding of doubles (some

@@ -213,7 +213,8 @@ Point nearest_point(const Point& p, const Corners& corners)
     const Point cp = minus(p, c);
     const double d5 = dot(ab, cp), d6 = dot(ac, cp);
     if (d6 >= 0 && d5 <= d6) return c;
-    const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6, of_a = d3 * d6 - d5 * d4; // areas facing the corners
+    const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6,
+                 of_a = d3 * d6 - d5 * d4; // areas facing the corners
     const double area = of_a + of_b + of_c;
     if (area <= no_angle * dot(ab, ab) * dot(ac, ac)) return nearest_point_of_sides(p, corners);
     if (of_c <= 0 && d1 >= 0 && d3 <= 0) return between(a, b, d1 / (d1 - d3));

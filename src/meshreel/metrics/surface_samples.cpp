@@ -144,8 +144,8 @@ SampledDistance sample_edges(const Outline& from, std::span<const float> positio
 {
     std::vector<double> lengths(from.edges.size());
     for (std::size_t e = 0; e < lengths.size(); ++e)
-        lengths[e] = std::sqrt(
-            squared_distance(point_of(positions, from.edges[e][0]), point_of(positions, from.edges[e][1])));
+        lengths[e] =
+            std::sqrt(squared_distance(point_of(positions, from.edges[e][0]), point_of(positions, from.edges[e][1])));
     const Shares shares(std::move(lengths));
     return in_runs(to, options, [&](Sampler& sampler, std::size_t first, std::size_t last, Random& random) {
         std::size_t edge = 0;

@@ -20,7 +20,7 @@ struct SampledDistance {
 struct SampleOptions {
     std::size_t count = 20000; ///< samples, > 0
     std::uint64_t seed = 1;
-    Threads threads;
+    Threads threads = {};
 };
 
 /// Samples of the triangles of `from`, uniform by area: one in each of `count` parts of equal area, which follow each
