@@ -246,5 +246,21 @@ TEST_P(EveryMetric, TellsErrorsOfVerticesAndFramesAsItPromises)
     }
 }
 
+TEST_P(EveryMetric, SaysTheSameHoweverFramesAreCut)
+{
+    const Animation original = test_shapes::torus(), distorted = noisy(original, 0.05);
+    const metrics::Wanted wanted{&GetParam()};
+    const metrics::Measured whole = *metrics::measure(original, distorted, wanted);
+    for (const std::size_t length : {1u, 3u, 5u}) {
+        const auto cut = GetParam().start({GetParam(), original, distorted, wanted.parameters, Threads{1}, {}});
+        for (std::size_t f = 0; f < original.frame_count(); f += length) {
+            const std::size_t rows = std::min(length, original.frame_count() - f), cols = 3ul * original.vertex_count;
+            cut->add({{original.frame(f).data(), rows, cols}, {distorted.frame(f).data(), rows, cols}});
+        }
+        EXPECT_EQ(cut->finish({}), whole.values) << length;
+        EXPECT_EQ(cut->per_frame(), whole.per_frame) << length;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Metrics, EveryMetric, testing::ValuesIn(metrics::all().begin(), metrics::all().end()),
                          [](const auto& row) { return std::string(row.param.name); });

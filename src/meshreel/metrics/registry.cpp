@@ -8,9 +8,12 @@
 #include <string>
 
 #include "meshreel/base/text.h"
+#include "meshreel/metrics/da.h"
+#include "meshreel/metrics/error_vectors.h"
 #include "meshreel/metrics/kg.h"
 #include "meshreel/metrics/metric.h"
 #include "meshreel/metrics/sted.h"
+#include "meshreel/metrics/td.h"
 #include "meshreel/metrics/vertex_error.h"
 
 namespace meshreel::metrics {
@@ -41,9 +44,7 @@ Status differ(const char* what, std::size_t original, std::size_t distorted, con
 std::span<const Metric> all()
 {
     static const std::array table{
-        vertex_error_row(),
-        kg_row(),
-        sted_row(),
+        vertex_error_row(), kg_row(), da_row(), td_row(), ev_row(), wev_row(), sted_row(),
     };
     return table;
 }
