@@ -16,14 +16,14 @@ double measure(const char* metric, double window, const Animation& original, con
     return metrics::measure(original, distorted, {metrics::find(metric), {window}})->values[0];
 }
 
-const Animation triangle = points(3, {0, 0, 0, 1, 0, 0, 0, 2, 0}, {{0, 1, 2}});
+const Animation ev_triangle = points(3, {0, 0, 0, 1, 0, 0, 0, 2, 0}, {{0, 1, 2}});
 
 } // namespace
 
 TEST(Ev, ComparesEachErrorVectorWithTheMeanOfItsNeighbours)
 {
     // Vertex 0 is off by 1: its neighbours say 0, theirs say 1/2.
-    EXPECT_DOUBLE_EQ(measure("ev", 0, triangle, points(3, {0, 0, 1, 1, 0, 0, 0, 2, 0}, {{0, 1, 2}})),
+    EXPECT_DOUBLE_EQ(measure("ev", 0, ev_triangle, points(3, {0, 0, 1, 1, 0, 0, 0, 2, 0}, {{0, 1, 2}})),
                      (1 + .5 + .5) / 3);
 }
 
@@ -31,13 +31,13 @@ TEST(Wev, NeighboursCountByTheInverseLengthOfTheirEdge)
 {
     // Edges of vertex 0 have lengths 1 and 2, the other one sqrt(5).
     const double d = 1 / std::sqrt(5.0), at_1 = 1 / (1 + d), at_2 = 0.5 / (0.5 + d);
-    EXPECT_DOUBLE_EQ(measure("wev", 0, triangle, points(3, {0, 0, 1, 1, 0, 0, 0, 2, 0}, {{0, 1, 2}})),
+    EXPECT_DOUBLE_EQ(measure("wev", 0, ev_triangle, points(3, {0, 0, 1, 1, 0, 0, 0, 2, 0}, {{0, 1, 2}})),
                      (1 + at_1 + at_2) / 3);
 }
 
 TEST(Ev, DoesNotSeeWhatAllShare)
 {
-    EXPECT_EQ(measure("ev", 3, triangle, points(3, {0, 0, 1, 1, 0, 1, 0, 2, 1}, {{0, 1, 2}})), 0.0);
+    EXPECT_EQ(measure("ev", 3, ev_triangle, points(3, {0, 0, 1, 1, 0, 1, 0, 2, 1}, {{0, 1, 2}})), 0.0);
 }
 
 TEST(Ev, ItsWindowSeesWhatShakes)
@@ -66,5 +66,5 @@ TEST(Ev, VerticesWithoutNeighboursAddNothing)
 {
     EXPECT_EQ(measure("ev", 1, points(1, {0, 0, 0}), points(1, {1, 0, 0})), 0.0);
     const Animation point = points(3, {1, 1, 1, 1, 1, 1, 1, 1, 1}, {{0, 1, 2}});
-    EXPECT_EQ(measure("wev", 1, point, triangle), 0.0) << "edges of no length weigh nothing";
+    EXPECT_EQ(measure("wev", 1, point, ev_triangle), 0.0) << "edges of no length weigh nothing";
 }
