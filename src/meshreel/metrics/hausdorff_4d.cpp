@@ -3,7 +3,9 @@
 #include "meshreel/metrics/hausdorff_4d.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "meshreel/base/random.h"
@@ -17,6 +19,7 @@ constexpr double rounding_part = 0x1p-44;
 /// No point of a simplex in three dimensions is farther from all of its corners than this part of its longest edge (Jung).
 const double jung_part = std::sqrt(3.0 / 8.0);
 constexpr std::size_t tetrahedra_a_task = 4096;
+constexpr double most_samples = 100'000'000; ///< an interval: 6 GB
 
 /// Distances with weights, put together in the order they come.
 class SpreadSum {
@@ -29,6 +32,7 @@ public:
         squares_ += weight * (distance * distance);
         weight_ += weight;
     }
+    bool any() const { return weight_ > 0.0; }
     DistanceSpread spread() const
     {
         if (!(weight_ > 0.0)) return {largest_, 0.0, 0.0};
@@ -154,7 +158,7 @@ public:
 
     Directed4d result() const
     {
-        Directed4d result{vertices_.spread(), samples_.spread(), upper_, grid_.cost()};
+        Directed4d result{vertices_.spread(), samples_.spread(), samples_.any(), upper_, grid_.cost()};
         if (search_.correspond) result.upper = std::min(upper_, largest_partner_ / search_.unit);
         result.upper = std::max(result.upper, result.lower());
         return result;
@@ -196,7 +200,8 @@ private:
         for (const double v : sizes_.volume) volume += v;
         if (!(volume > 0.0) || !std::isfinite(volume)) return 0.0;
         Random random(search_.options.seed + 0x9e3779b97f4a7c15u * (interval + 1));
-        const std::uint32_t count = search_.options.samples;
+        const double wanted = std::ceil(search_.options.samples * static_cast<double>(from_.tetrahedra.size() / 3));
+        const auto count = static_cast<std::uint32_t>(std::min(wanted, most_samples));
         std::size_t t = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
             const double place = (i + random.uniform()) * (volume / count);
@@ -252,7 +257,115 @@ Progress part_of(const Progress& progress, double from, double to)
     return [=](std::string_view stage, double fraction) { progress(stage, from + (to - from) * fraction); };
 }
 
+/// Holds all frames of both: an animation may be near to another one's at any time.
+class Hausdorff4dMeasurement : public Measurement {
+public:
+    explicit Hausdorff4dMeasurement(const Context& context)
+        : original_(context.original), distorted_(context.distorted), vertex_errors_(context.vertex_errors)
+    {
+        options_.time_constant = context.parameter("time_constant");
+        options_.samples = context.parameter("samples");
+        options_.seed = static_cast<std::uint64_t>(context.parameter("seed"));
+        options_.threads = context.threads;
+        original_frames_.reserve(3ul * original_.vertex_count * original_.frame_count());
+        distorted_frames_.reserve(3ul * distorted_.vertex_count * distorted_.frame_count());
+    }
+
+    void add(const Frames& frames) override
+    {
+        const std::span<const float> originals = frames.original.values(), distorted = frames.distorted.values();
+        original_frames_.insert(original_frames_.end(), originals.begin(), originals.end());
+        distorted_frames_.insert(distorted_frames_.end(), distorted.begin(), distorted.end());
+    }
+
+    std::vector<double> finish(const Progress& progress) override
+    {
+        const Watch to_percent{percent_errors(), progress};
+        const Hausdorff4d h =
+            hausdorff_4d(mesh(original_, original_frames_), mesh(distorted_, distorted_frames_), options_, to_percent);
+        const DistanceSpread forward = h.forward.spread(), backward = h.backward.spread(), &own = h.forward.vertices;
+        std::vector<double> values{std::max(forward.largest, backward.largest), std::max(forward.mean, backward.mean),
+                                   std::max(forward.rms, backward.rms), std::max(h.forward.upper, h.backward.upper)};
+        for (const DistanceSpread& spread : {forward, backward, own})
+            values.insert(values.end(), {spread.largest, spread.mean, spread.rms});
+        for (double& value : values) value *= 100.0;
+        return values;
+    }
+
+private:
+    using Watch = Hausdorff4dWatch;
+
+    static MovingMesh mesh(const Animation& still, const std::vector<float>& positions)
+    {
+        return {still, {positions.data(), still.frame_count(), 3ul * still.vertex_count}};
+    }
+
+    VertexErrors percent_errors()
+    {
+        if (!vertex_errors_) return {};
+        return [this](std::size_t frame, std::span<const double> errors) {
+            percent_.assign(errors.begin(), errors.end());
+            for (double& error : percent_) error *= 100.0;
+            vertex_errors_(frame, percent_);
+        };
+    }
+
+    const Animation &original_, &distorted_;
+    VertexErrors vertex_errors_;
+    Hausdorff4dOptions options_;
+    std::vector<float> original_frames_, distorted_frames_;
+    std::vector<double> percent_;
+};
+
+constexpr Invariance moved_and_scaled{true, false, true, false}; // the unit is a box along the axes
+
+constexpr Value value_4d(std::string_view name, std::string_view title)
+{
+    return {name, title, "%", "thesis 7.1.1", 0.0, Better::less, moved_and_scaled};
+}
+
 } // namespace
+
+DistanceSpread Directed4d::spread() const
+{
+    return sampled ? DistanceSpread{lower(), samples.mean, samples.rms} : vertices;
+}
+
+Metric hausdorff_4d_row()
+{
+    static constexpr std::array values{
+        value_4d("hausdorff_4d", "4D Hausdorff distance, at least"),
+        value_4d("hausdorff_4d_mean", "the larger of both mean distances"),
+        value_4d("hausdorff_4d_rms", "the larger of both root mean squares"),
+        value_4d("hausdorff_4d_upper", "4D Hausdorff distance, at most"),
+        value_4d("hausdorff_4d_forward", "from the original, largest"),
+        value_4d("hausdorff_4d_forward_mean", "from the original, mean"),
+        value_4d("hausdorff_4d_forward_rms", "from the original, root mean square"),
+        value_4d("hausdorff_4d_backward", "from the distorted one, largest"),
+        value_4d("hausdorff_4d_backward_mean", "from the distorted one, mean"),
+        value_4d("hausdorff_4d_backward_rms", "from the distorted one, root mean square"),
+        value_4d("hausdorff_4d_vertices", "from the original's vertices, largest"),
+        value_4d("hausdorff_4d_vertices_mean", "from the original's vertices, mean"),
+        value_4d("hausdorff_4d_vertices_rms", "from the original's vertices, root mean square"),
+    };
+    static constexpr std::array parameters{
+        Parameter{"time_constant", "how far in space is as far as a second", "body diagonals a second",
+                  usual_time_constant, 1e-6, 1e6},
+        Parameter{"samples", "points a triangle and interval; 0: vertices alone", "", 0.5, 0.0, 1000.0},
+        Parameter{"seed", "which points", "", 1.0, 0.0, 9007199254740992.0, true},
+    };
+    return {.name = "hausdorff_4d",
+            .title = "distance of the surfaces in space and time",
+            .common = Common::nothing,
+            .values = values,
+            .parameters = parameters,
+            .slow = true,
+            .vertex_title = "distance in space and time",
+            .vertex_unit = "%",
+            .start = [](const Context& context) -> std::unique_ptr<Measurement> {
+                return std::make_unique<Hausdorff4dMeasurement>(context);
+            }};
+}
 
 Hausdorff4d hausdorff_4d(const MovingMesh& original, const MovingMesh& distorted, const Hausdorff4dOptions& options,
                          const Hausdorff4dWatch& watch)

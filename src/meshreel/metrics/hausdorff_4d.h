@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 
 #include "meshreel/base/parallel.h"
@@ -11,6 +10,7 @@
 #include "meshreel/base/views.h"
 #include "meshreel/mesh/animation.h"
 #include "meshreel/mesh/space_time.h"
+#include "meshreel/metrics/metric.h"
 #include "meshreel/metrics/space_time_grid.h"
 
 namespace meshreel::metrics {
@@ -18,8 +18,7 @@ namespace meshreel::metrics {
 /// What is asked of the 4D Hausdorff distance.
 struct Hausdorff4dOptions {
     double time_constant = usual_time_constant; ///< alpha, body diagonals a second, > 0
-    std::uint32_t samples =
-        10000;              ///< points a frame interval, spread evenly over the tetrahedra; 0: the vertices alone
+    double samples = 0.5; ///< points a triangle and interval, spread evenly over the tetrahedra; 0: the vertices alone
     std::uint64_t seed = 1; ///< another seed, other points
     Threads threads = {};
 };
@@ -27,7 +26,7 @@ struct Hausdorff4dOptions {
 /// Who wants to see what; both may be empty.
 struct Hausdorff4dWatch {
     /// Distances of the original's vertices in a frame, [V], body diagonals; frame after frame. 0 for a vertex in no triangle.
-    std::function<void(std::size_t frame, std::span<const double> errors)> vertex_errors;
+    VertexErrors vertex_errors;
     Progress progress;
 };
 
@@ -47,11 +46,14 @@ struct DistanceSpread {
 struct Directed4d {
     DistanceSpread vertices; ///< of every vertex of a triangle, in every frame
     DistanceSpread samples;  ///< of points spread evenly; 0 where there are none
+    bool sampled = false;    ///< whether there are any
     double upper = 0.0;      ///< no point of the animation is farther
     GridCost cost;           ///< of the grid over the other one
 
     /// A distance that some point has: the Hausdorff distance in this direction is between this and `upper`.
     double lower() const { return vertices.largest > samples.largest ? vertices.largest : samples.largest; }
+    /// lower(), and the mean and root mean square of the samples; where there are none, of the vertices.
+    DistanceSpread spread() const;
 };
 
 struct Hausdorff4d {
@@ -64,5 +66,8 @@ struct Hausdorff4d {
 /// any number of threads. @cost O(F (V + T + samples)) for animations near each other.  @source thesis 7.1.1
 Hausdorff4d hausdorff_4d(const MovingMesh& original, const MovingMesh& distorted,
                          const Hausdorff4dOptions& options = {}, const Hausdorff4dWatch& watch = {});
+
+/// `hausdorff_4d`. Holds the positions of both animations.
+Metric hausdorff_4d_row();
 
 } // namespace meshreel::metrics
