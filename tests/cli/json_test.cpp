@@ -86,6 +86,12 @@ TEST_F(JsonKeys, OfValidateAreDocumented)
     EXPECT_EQ(keys_of(good("validate a.pc2 --mesh a.obj --json").json()), documented("validate"));
 }
 
+TEST_F(JsonKeys, OfStudyAreDocumented)
+{
+    write("scores.csv", "MOS,kg\n1,2\n2,4\n3,3\n");
+    EXPECT_EQ(keys_of(good("study correlate scores.csv --json").json()), documented("study"));
+}
+
 TEST_F(JsonKeys, OfAnErrorAreDocumented)
 {
     EXPECT_EQ(keys_of(run("convert a.pc2 --json").json()), documented("an error"));
