@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "meshreel/coding/model.h"
 #include "meshreel/coding/varint.h"
@@ -56,6 +58,8 @@ public:
     bool is_unused(std::uint32_t number) const { return number < vertex_.size() && vertex_[number] == none; }
     std::uint32_t stamp(std::uint32_t k) const { return stamp_[k]; }
     std::uint32_t stamped(std::uint32_t stamp) const { return stamped_[stamp]; }
+    /// How many have been given.
+    std::uint32_t stamps() const { return static_cast<std::uint32_t>(stamped_.size()); }
 
     std::uint32_t across(std::uint32_t h) const { return mesh_.twin[h] == none ? none : mesh_.twin[h] / 3; }
     /// The triangle beyond the next (or, back, the previous) edge of the one beyond h.
@@ -150,53 +154,70 @@ private:
     // ---- which triangle ------------------------------------------------------------------------------------------
     static constexpr std::uint8_t moves = 32;
 
-    std::uint32_t candidate(std::uint8_t move) const
+    using Moves = std::array<std::uint32_t, moves>;
+
+    /// Where each move leads: an unvisited triangle, or none.
+    Moves candidates() const
     {
+        Moves value;
+        value.fill(none);
+        if (walked_.unvisited().size() > 0) value[24] = walked_.unvisited().first();
         const std::uint32_t h = past_[0];
-        if (move == 24) return walked_.unvisited().size() > 0 ? walked_.unvisited().at(0) : none;
-        if (h == none) return none;
+        if (h == none) return value;
+        add_neighbours(h, value);
+        add_numbered(value);
+        add_frontier(h / 3, value);
+        value[25] = h / 3 + 1 < walked_.triangle_count() ? h / 3 + 1 : none;
+        for (std::uint32_t& k : value)
+            if (k != none && walked_.visited(k)) k = none;
+        return value;
+    }
+    void add_neighbours(std::uint32_t h, Moves& value) const
+    {
         const std::array<std::uint32_t, 3> edge = {h, next_half(h), previous_half(h)};
-        if (move < 3) return walked_.across(edge[move]);
-        if (move < 9) return walked_.beyond(edge[(move - 3u) / 2], move % 2 == 0);
-        if (move < 12) return past_[1] == none ? none : walked_.across(turned(past_[1], move - 9u));
-        if (move < 18) return walked_.around(edge[(move - 12u) / 2], move % 2 == 0);
-        if (move == 18) return walked_.at_number(at_corner_[0] + 1);
-        if (move == 19) return walked_.at_number(at_corner_[0] - 1);
-        if (move == 20) return walked_.at_number(at_corner_[1] + 1);
-        if (move == 21) return walked_.at_number(last_new_);
-        if (move == 22) return newest(0);
-        if (move == 23) return newest(walked_.frontier().size() - 1);
-        if (move == 26 || move == 27) return beside_in_frontier(h / 3, move == 26);
-        if (move == 28 || move == 29) return beside_in_frontier(last_far_, move == 28);
-        if (move == 30) return walked_.at_number(firsts_[0] + (firsts_[0] - firsts_[1]));
-        if (move == 31) return walked_.at_number(firsts_[1] + (firsts_[1] - firsts_[3]));
-        return h / 3 + 1 < walked_.triangle_count() ? h / 3 + 1 : none;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            value[i] = walked_.across(edge[i]);
+            value[3 + 2 * i] = walked_.beyond(edge[i], false);
+            value[4 + 2 * i] = walked_.beyond(edge[i], true);
+            if (past_[1] != none) value[9 + i] = walked_.across(turned(past_[1], i));
+            value[12 + 2 * i] = walked_.around(edge[i], true);
+            value[13 + 2 * i] = walked_.around(edge[i], false);
+        }
+    }
+    void add_numbered(Moves& value) const
+    {
+        value[18] = walked_.at_number(at_corner_[0] + 1);
+        value[19] = walked_.at_number(at_corner_[0] - 1);
+        value[20] = walked_.at_number(at_corner_[1] + 1);
+        value[21] = walked_.at_number(last_new_);
+        value[30] = walked_.at_number(firsts_[0] + (firsts_[0] - firsts_[1]));
+        value[31] = walked_.at_number(firsts_[1] + (firsts_[1] - firsts_[3]));
+    }
+    /// k: the last triangle.
+    void add_frontier(std::uint32_t k, Moves& value) const
+    {
+        const RankSet& frontier = walked_.frontier();
+        if (frontier.size() == 0) return;
+        value[22] = walked_.stamped(frontier.before(walked_.stamps()));
+        value[23] = walked_.stamped(frontier.first());
+        std::tie(value[26], value[27]) = beside_in_frontier(k);
+        std::tie(value[28], value[29]) = beside_in_frontier(last_far_);
     }
     static std::uint32_t turned(std::uint32_t h, std::uint32_t by) { return h - h % 3 + (h % 3 + by) % 3; }
-    /// The triangle that came to the frontier `age` triangles before the last.
-    std::uint32_t newest(std::uint32_t age) const
-    {
-        const RankSet& frontier = walked_.frontier();
-        return age < frontier.size() ? walked_.stamped(frontier.at(frontier.size() - 1 - age)) : none;
-    }
 
-    /// The triangle that came to the frontier next after (or before) triangle k did.
-    std::uint32_t beside_in_frontier(std::uint32_t k, bool after) const
+    /// The triangles that came to the frontier next after and next before triangle k did, which is not in it any more.
+    std::pair<std::uint32_t, std::uint32_t> beside_in_frontier(std::uint32_t k) const
     {
-        if (k == none || walked_.stamp(k) == none) return none;
+        if (k == none || walked_.stamp(k) == none) return {none, none};
         const RankSet& frontier = walked_.frontier();
-        const std::uint32_t rank = frontier.rank(walked_.stamp(k));
-        if (after) return rank < frontier.size() ? walked_.stamped(frontier.at(rank)) : none;
-        return rank > 0 ? walked_.stamped(frontier.at(rank - 1)) : none;
+        const std::uint32_t after = frontier.after(walked_.stamp(k)), before = frontier.before(walked_.stamp(k));
+        return {after == RankSet::nobody ? none : walked_.stamped(after),
+                before == RankSet::nobody ? none : walked_.stamped(before)};
     }
 
     std::uint32_t triangle(std::uint32_t wanted)
     {
-        std::array<std::uint32_t, moves> value;
-        for (std::uint8_t move = 0; move < moves; ++move) {
-            value[move] = candidate(move);
-            if (value[move] != none && walked_.visited(value[move])) value[move] = none;
-        }
+        Moves value = candidates();
         TryOrder<moves>& order = move_order_[hits_[0]];
         for (std::size_t place = 0; place < moves; ++place) {
             const std::uint8_t move = order[place];
@@ -295,7 +316,7 @@ private:
                             after = walked_.number_at(corners[(j + 1) % 3]);
         switch (kind) {
         case 0:
-            return walked_.unused().at(0);
+            return walked_.unused().first();
         case 1:
             return last_new_ + 1;
         case 2:
