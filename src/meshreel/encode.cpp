@@ -25,8 +25,12 @@ namespace meshreel {
 
 namespace {
 
-constexpr std::uint32_t fast_growth = 12; // see docs/effort.md
-constexpr std::uint32_t fast_neighbours = 10;
+/// How a file is made that opens fast: see docs/effort.md.
+struct FastWay {
+    std::uint32_t growth, neighbours;
+};
+constexpr std::array<FastWay, 5> fast_ways{{{24, 10}, {12, 10}, {8, 12}, {4, 14}, {4, 16}}}; // the fastest first
+constexpr double most_for_fast = 1.09;   // what one may cost at the same step
 constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
@@ -74,6 +78,7 @@ public:
         codecs::Settings start = common(plan_.start);
         if (limits_distance()) spare_no_vertex(start);
         start.step = likely_step(start, segments_.spectra());
+        MESHREEL_TRY(start, opening_fast(start));
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
         if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
         return *std::move(best);
@@ -162,10 +167,22 @@ private:
         settings.basis = options_.basis;
         settings.entropy = options_.entropy;
         settings.threads = options_.threads;
-        if (options_.fast_decode) {
-            settings.growth = std::max(settings.growth, fast_growth);
-            settings.neighbours = fast_neighbours;
-            settings.mixed = false;
+        return settings;
+    }
+
+    /// The fastest way that does not cost too much, if the file is to open fast.
+    Result<codecs::Settings> opening_fast(codecs::Settings settings)
+    {
+        if (!options_.fast_decode) return settings;
+        MESHREEL_TRY(const tune::Attempt usual, attempted(settings));
+        MESHREEL_TRY(const double usual_size, file_size(usual.payloads));
+        settings.mixed = false;
+        for (const FastWay& way : fast_ways) {
+            settings.growth = std::max(plan_.start.growth, way.growth);
+            settings.neighbours = way.neighbours;
+            MESHREEL_TRY(const tune::Attempt attempt, attempted(settings));
+            MESHREEL_TRY(const double size, file_size(attempt.payloads));
+            if (size <= most_for_fast * usual_size) break;
         }
         return settings;
     }
@@ -177,7 +194,7 @@ private:
         settings.step = options_.quality.step.value_or(0.0) * diagonal();
         if (settings.bases && *settings.bases > segments_.max_bases())
             MESHREEL_CHECK(segments_.prepare(*settings.bases));
-        return settings;
+        return opening_fast(settings);
     }
 
     /// All segments of a codec that loses nothing.

@@ -291,6 +291,20 @@ TEST(Reel, AHigherEffortIsSmaller)
     EXPECT_EQ(encode(cloth, options).error().code, ErrorCode::usage);
 }
 
+TEST(Reel, OpensFastForATenthMoreAtMost)
+{
+    for (const char* name : {"cloth", "walker"}) {
+        const Animation animation = *shapes::generate(*shapes::find(name), {.vertices = 900, .frames = 40});
+        EncodeOptions options;
+        options.quality.kg = 0.2;
+        const Bytes usual = encode(animation, options)->bytes;
+        options.fast_decode = true;
+        const Bytes fast = encode(animation, options)->bytes;
+        EXPECT_NE(fast, usual) << name;
+        EXPECT_LT(static_cast<double>(fast.size()), 1.1 * static_cast<double>(usual.size())) << name;
+    }
+}
+
 TEST(Reel, CutsLongAnimationsIntoSegments)
 {
     const Animation animation = *shapes::generate(*shapes::find("wave"), {.vertices = 30, .frames = 4500});

@@ -64,7 +64,8 @@ void PoseOrder::sort()
     }
 }
 
-PoseOrder::Neighbours PoseOrder::nearest(std::size_t rank, std::size_t most, MatrixView<const double> Y) const
+/// Without weights, the nearest first.
+PoseOrder::Neighbours PoseOrder::nearest_of(std::size_t rank, std::size_t most) const
 {
     struct Near {
         double square;
@@ -75,24 +76,41 @@ PoseOrder::Neighbours PoseOrder::nearest(std::size_t rank, std::size_t most, Mat
         }
     };
     const std::size_t f = order_[rank];
-    std::vector<Near> near;
-    for (std::size_t r = 0; r < rank; ++r) near.push_back({square(f, order_[r]), order_[r]});
+    std::array<Near, predict::Kriging::most> near; // the nearest so far, in order
     Neighbours result;
-    result.count = std::min(most, rank);
-    if (result.count == 0) return result;
-    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(result.count), near.end());
+    for (std::size_t r = 0; r < rank; ++r) {
+        const Near one{square(f, order_[r]), order_[r]};
+        if (result.count == most && !(one < near[most - 1])) continue;
+        std::size_t place = result.count < most ? result.count++ : most - 1;
+        for (; place > 0 && one < near[place - 1]; --place) near[place] = near[place - 1];
+        near[place] = one;
+    }
+    for (std::size_t i = 0; i < result.count; ++i) result.frames[i] = near[i].frame;
+    return result;
+}
+
+PoseOrder::Group PoseOrder::nearest(std::size_t rank, std::size_t most, MatrixView<const double> Y) const
+{
+    Group group;
+    const std::size_t size = group_size(rank, most), count = std::min(most, rank);
+    if (count == 0) return group;
     predict::Kriging kriging(relevance_.size());
     const double pace = std::sqrt(squared_pace_);
-    for (std::size_t i = 0; i < result.count; ++i) {
-        const std::size_t g = result.frames[i] = near[i].frame;
-        kriging.differences(0)[i] = pace * (static_cast<double>(g) - static_cast<double>(f));
-        for (std::size_t k = 1; k < relevance_.size(); ++k)
-            kriging.differences(k)[i] = relevance_[k] * (Y(g, k + 2) - Y(f, k + 2));
+    for (std::size_t lane = 0; lane < size; ++lane) {
+        const std::size_t f = order_[rank + lane];
+        group[lane] = nearest_of(rank + lane, most);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t g = group[lane].frames[i];
+            kriging.differences(0)[i] = pace * (static_cast<double>(g) - static_cast<double>(f));
+            for (std::size_t k = 1; k < relevance_.size(); ++k)
+                kriging.differences(k)[i] = relevance_[k] * (Y(g, k + 2) - Y(f, k + 2));
+        }
+        kriging.set(lane, count, relevance_.size());
     }
-    kriging.set(0, result.count, relevance_.size());
-    const auto weights = kriging.weights(result.count, {100.0, 1.0, 0.005, 0.0});
-    for (std::size_t i = 0; i < result.count; ++i) result.weights[i] = weights[i][0];
-    return result;
+    const auto weights = kriging.weights(count, {100.0, 1.0, 0.005, 0.0});
+    for (std::size_t lane = 0; lane < size; ++lane)
+        for (std::size_t i = 0; i < count; ++i) group[lane].weights[i] = weights[i][lane];
+    return group;
 }
 
 } // namespace meshreel::codecs

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,10 +33,19 @@ public:
         std::array<std::size_t, predict::Kriging::most> frames{};
         std::array<double, predict::Kriging::most> weights{};
     };
-    /// The frames before it in the order that are nearest to a frame, at most `most`, and the weights that predict it.
-    Neighbours nearest(std::size_t rank, std::size_t most, MatrixView<const double> Y) const;
+    using Group = std::array<Neighbours, predict::Kriging::lanes>;
+
+    /// Frames that are weighed side by side, from a rank on: those that have the same number of neighbours.
+    std::size_t group_size(std::size_t rank, std::size_t most) const
+    {
+        return rank < most ? 1 : std::min(predict::Kriging::lanes, order_.size() - rank);
+    }
+    /// Of each frame of the group that begins at a rank: the frames before it in the order that are nearest to it, at most
+    /// `most`, and the weights that predict it.
+    Group nearest(std::size_t rank, std::size_t most, MatrixView<const double> Y) const;
 
 private:
+    Neighbours nearest_of(std::size_t rank, std::size_t most) const;
     double square(std::size_t f, std::size_t g) const
     {
         const double apart = static_cast<double>(f) - static_cast<double>(g);

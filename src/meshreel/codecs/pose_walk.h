@@ -54,8 +54,7 @@ private:
         for (std::size_t first = 0; first < Y.cols && !ended(core_);) {
             const std::size_t last = std::min(Y.cols, PoseOrder::batch_end(first));
             order.renew(Y, first);
-            for (std::size_t rank = 0; rank < Y.rows && !ended(core_); ++rank)
-                code_frame(order, rank, {Y, first, last});
+            code_batch(order, {Y, first, last});
             first = last;
         }
     }
@@ -65,14 +64,26 @@ private:
         std::size_t first, last;
     };
 
-    void code_frame(const PoseOrder& order, std::size_t rank, const Batch& batch)
+    /// A frame's weights depend on earlier columns alone, so a few are found side by side.
+    void code_batch(const PoseOrder& order, const Batch& batch)
     {
-        const PoseOrder::Neighbours near = order.nearest(rank, neighbours, batch.Y);
-        const std::size_t f = order.frame(rank);
+        for (std::size_t rank = 0; rank < batch.Y.rows && !ended(core_);) {
+            const std::size_t end = rank + order.group_size(rank, neighbours);
+            for (const PoseOrder::Neighbours& near : order.nearest(rank, neighbours, batch.Y))
+                if (rank < end) code_frame(near, {order.frame(rank), rank++}, batch);
+        }
+    }
+
+    struct Frame {
+        std::size_t f, rank;
+    };
+
+    void code_frame(const PoseOrder::Neighbours& near, const Frame& frame, const Batch& batch)
+    {
         std::uint32_t age = 0; // 3 an octave of the rank
-        for (std::size_t r = rank; r > 0; r /= 2) ++age;
+        for (std::size_t r = frame.rank; r > 0; r /= 2) ++age;
         for (std::size_t c = batch.first; c < batch.last; ++c)
-            code_value(near, {f, c, std::min(age, ages - 1)}, batch.Y);
+            code_value(near, {frame.f, c, std::min(age, ages - 1)}, batch.Y);
     }
 
     struct Place {

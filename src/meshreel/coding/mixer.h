@@ -90,4 +90,17 @@ private:
     std::array<std::int32_t, count> weights_ = equal_weights(); ///< in 2^-16, together one and a half at first
 };
 
+/// A single estimate is taken as it is.
+template <>
+class Mixer<1> {
+public:
+    template <class Coder>
+    bool code(Coder& coder, const std::array<Bit*, 1>& models, bool wanted)
+    {
+        const bool bit = coder.decide(models[0]->one(), wanted);
+        if constexpr (learns<Coder>) models[0]->learn(bit);
+        return bit;
+    }
+};
+
 } // namespace meshreel::coding

@@ -101,7 +101,7 @@ private:
 
     std::uint32_t size_ = 0;
     std::size_t lowest_ = 0; ///< the first word that has an element, if any has
-    std::size_t top_ = 1; ///< the largest power of two that is at most the number of words
+    std::size_t top_ = 1;    ///< the largest power of two that is at most the number of words
     std::vector<std::uint64_t> words_;
     std::vector<std::uint32_t> tree_; ///< of how many elements each word has
 };

@@ -128,17 +128,20 @@ public:
     /// Fills the row with places in the order. Returns how many there are within the reach, at most as many as wanted.
     std::size_t find(const Point& point, std::size_t limit, std::span<std::uint32_t> row)
     {
+        const std::size_t wanted = row.size();
+        near_.resize(wanted);
         std::size_t count = 0;
+        Near bound{squared_reach_, 0};
         cells_.near(point, limit, [&](std::uint32_t place, double square) {
-            if (count == near_.size()) near_.resize(2 * count + 64);
-            near_[count] = {square, place};
-            count += square < squared_reach_ ? 1 : 0; // no branch: nobody could foresee it
+            const Near one{square, place};
+            if (!(one < bound)) return;
+            std::size_t i = count < wanted ? count++ : wanted - 1;
+            for (; i > 0 && one < near_[i - 1]; --i) near_[i] = near_[i - 1];
+            near_[i] = one;
+            if (count == wanted) bound = near_[wanted - 1];
         });
-        const std::size_t enough = std::min(row.size(), count);
-        const auto begin = near_.begin(), nearest = begin + static_cast<std::ptrdiff_t>(enough);
-        if (enough < count) std::nth_element(begin, nearest, begin + static_cast<std::ptrdiff_t>(count));
-        for (std::size_t i = 0; i < enough; ++i) row[i] = near_[i].place;
-        return enough;
+        for (std::size_t i = 0; i < count; ++i) row[i] = near_[i].place;
+        return count;
     }
 
 private:
@@ -152,7 +155,7 @@ private:
     };
     const Cells& cells_;
     double squared_reach_;
-    std::vector<Near> near_;
+    std::vector<Near> near_; ///< [wanted] the nearest so far, in order
 };
 
 /// Finds the neighbours of all points, a few levels at a time, from fine to coarse: whoever has too few within reach asks
