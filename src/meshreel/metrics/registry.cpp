@@ -10,6 +10,7 @@
 #include "meshreel/base/text.h"
 #include "meshreel/metrics/da.h"
 #include "meshreel/metrics/error_vectors.h"
+#include "meshreel/metrics/hausdorff.h"
 #include "meshreel/metrics/hausdorff_4d.h"
 #include "meshreel/metrics/kg.h"
 #include "meshreel/metrics/metric.h"
@@ -45,7 +46,8 @@ Status differ(const char* what, std::size_t original, std::size_t distorted, con
 std::span<const Metric> all()
 {
     static const std::array table{
-        vertex_error_row(), kg_row(), da_row(), td_row(), ev_row(), wev_row(), sted_row(), hausdorff_4d_row(),
+        vertex_error_row(), kg_row(),   da_row(),        td_row(),           ev_row(),
+        wev_row(),          sted_row(), hausdorff_row(), hausdorff_4d_row(),
     };
     return table;
 }

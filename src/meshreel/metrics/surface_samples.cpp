@@ -11,7 +11,7 @@ namespace meshreel::metrics {
 
 namespace {
 
-constexpr std::size_t samples_a_run = 4096;
+constexpr std::size_t sampled_a_run = 1024; ///< triangles, edges or vertices
 
 Point point_of(std::span<const float> positions, std::uint32_t v)
 {
@@ -39,15 +39,15 @@ private:
     SurfaceDistance::Place place_ = 0;
 };
 
-/// Calls body(sampler, first, last, random) for runs of 0 .. count - 1; sums in their order.
+/// Calls body(sampler, i) for i = 0 .. count - 1 in runs; sums in their order.
 template <class Body>
-SampledDistance in_runs(const SurfaceDistance& to, const SampleOptions& options, const Body& body)
+SampledDistance in_runs(std::size_t count, const SurfaceDistance& to, Threads threads, const Body& body)
 {
-    std::vector<SampledDistance> runs((options.count + samples_a_run - 1) / samples_a_run);
-    parallel_for(runs.size(), options.threads, [&](std::size_t run) {
+    std::vector<SampledDistance> runs((count + sampled_a_run - 1) / sampled_a_run);
+    parallel_for(runs.size(), threads, [&](std::size_t run) {
         Sampler sampler(to);
-        Random random(Random(options.seed + run).bits());
-        body(sampler, run * samples_a_run, std::min(options.count, (run + 1) * samples_a_run), random);
+        const std::size_t last = std::min(count, (run + 1) * sampled_a_run);
+        for (std::size_t i = run * sampled_a_run; i < last; ++i) body(sampler, i);
         runs[run] = sampler.found;
     });
     SampledDistance all;
@@ -55,11 +55,13 @@ SampledDistance in_runs(const SurfaceDistance& to, const SampleOptions& options,
     return all;
 }
 
-/// Shares out samples among pieces by their size: where the k-th of them falls.
+/// Shares out samples among pieces by their size, and draws them.
 class Shares {
 public:
     /// sizes: of the pieces, not negative; where all are 0, or too large to be added up, they count as equal.
-    explicit Shares(std::vector<double> sizes) : ends_(std::move(sizes))
+    Shares(std::vector<double> sizes, const SampleOptions& options)
+        : ends_(std::move(sizes)), seed_(Random(options.seed).bits()), count_(options.count),
+          offset_(Random(options.seed).uniform())
     {
         double sum = 0;
         for (double& end : ends_) end = sum += end;
@@ -67,17 +69,30 @@ public:
         for (std::size_t i = 0; i < ends_.size(); ++i) ends_[i] = static_cast<double>(i + 1);
     }
 
-    /// The piece at a share of the whole, 0 <= share < 1. @param from  no piece before this one is meant
-    std::size_t piece(double share, std::size_t from) const
+    /// Calls body(random) for each sample of piece i.
+    template <class Body>
+    void for_samples(std::size_t i, const Body& body) const
     {
-        const double at = share * ends_.back();
-        if (from < ends_.size() && at < ends_[from]) return from;
-        const auto found = std::upper_bound(ends_.begin() + from, ends_.end(), at);
-        return found == ends_.end() ? ends_.size() - 1 : static_cast<std::size_t>(found - ends_.begin());
+        const std::size_t first = i == 0 ? 0 : samples_before(i), last = samples_before(i + 1);
+        if (first == last) return;
+        Random random(Random(seed_ + i).bits());
+        for (std::size_t k = first; k < last; ++k) body(random);
     }
 
 private:
+    /// Sample k falls at (k + offset) / count of the whole.
+    std::size_t samples_before(std::size_t pieces) const
+    {
+        if (pieces == ends_.size()) return count_;
+        const auto count = static_cast<double>(count_);
+        const double before = std::ceil(ends_[pieces - 1] / ends_.back() * count - offset_);
+        return static_cast<std::size_t>(std::clamp(before, 0.0, count));
+    }
+
     std::vector<double> ends_;
+    std::uint64_t seed_;
+    std::size_t count_;
+    double offset_;
 };
 
 Point random_point(const Corners& corners, Random& random)
@@ -111,15 +126,13 @@ void SampledDistance::add(const SampledDistance& other)
 SampledDistance sample_faces(const SurfaceDistance& from, const SurfaceDistance& to, const SampleOptions& options)
 {
     std::vector<double> areas(from.size());
-    for (SurfaceDistance::Place place = 0; place < areas.size(); ++place) areas[place] = area_of(from.corners(place));
-    const Shares shares(std::move(areas));
-    return in_runs(to, options, [&](Sampler& sampler, std::size_t first, std::size_t last, Random& random) {
-        std::size_t face = 0;
-        for (std::size_t k = first; k < last; ++k) {
-            const double share = (static_cast<double>(k) + random.uniform()) / static_cast<double>(options.count);
-            face = shares.piece(share, face);
-            sampler.measure(random_point(from.corners(static_cast<SurfaceDistance::Place>(face)), random));
-        }
+    for (SurfaceDistance::Place place = 0; place < areas.size(); ++place)
+        areas[from.triangle_at(place)] = area_of(from.corners(place));
+    const Shares shares(std::move(areas), options);
+    return in_runs(from.size(), to, options.threads, [&](Sampler& sampler, std::size_t place) {
+        const Corners corners = from.corners(static_cast<SurfaceDistance::Place>(place));
+        shares.for_samples(from.triangle_at(static_cast<SurfaceDistance::Place>(place)),
+                           [&](Random& random) { sampler.measure(random_point(corners, random)); });
     });
 }
 
@@ -146,26 +159,18 @@ SampledDistance sample_edges(const Outline& from, std::span<const float> positio
     for (std::size_t e = 0; e < lengths.size(); ++e)
         lengths[e] =
             std::sqrt(squared_distance(point_of(positions, from.edges[e][0]), point_of(positions, from.edges[e][1])));
-    const Shares shares(std::move(lengths));
-    return in_runs(to, options, [&](Sampler& sampler, std::size_t first, std::size_t last, Random& random) {
-        std::size_t edge = 0;
-        for (std::size_t k = first; k < last; ++k) {
-            const double share = (static_cast<double>(k) + random.uniform()) / static_cast<double>(options.count);
-            edge = shares.piece(share, edge);
-            const auto [a, b] = from.edges[edge];
-            sampler.measure(between(point_of(positions, a), point_of(positions, b), random.uniform()));
-        }
+    const Shares shares(std::move(lengths), options);
+    return in_runs(from.edges.size(), to, options.threads, [&](Sampler& sampler, std::size_t e) {
+        const Point a = point_of(positions, from.edges[e][0]), b = point_of(positions, from.edges[e][1]);
+        shares.for_samples(e, [&](Random& random) { sampler.measure(between(a, b, random.uniform())); });
     });
 }
 
 SampledDistance sample_vertices(const Outline& from, std::span<const float> positions, const SurfaceDistance& to,
                                 const SampleOptions& options)
 {
-    SampleOptions each = options;
-    each.count = from.vertices.size();
-    return in_runs(to, each, [&](Sampler& sampler, std::size_t first, std::size_t last, Random&) {
-        for (std::size_t k = first; k < last; ++k) sampler.measure(point_of(positions, from.vertices[k]));
-    });
+    return in_runs(from.vertices.size(), to, options.threads,
+                   [&](Sampler& sampler, std::size_t i) { sampler.measure(point_of(positions, from.vertices[i])); });
 }
 
 } // namespace meshreel::metrics

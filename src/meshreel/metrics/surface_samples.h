@@ -23,9 +23,10 @@ struct SampleOptions {
     Threads threads = {};
 };
 
-/// Samples of the triangles of `from`, uniform by area: one in each of `count` parts of equal area, which follow each
-/// other as the triangles do in the tree. A surface without any area is sampled as if its triangles were of equal area.
-/// The same for any number of threads. @pre neither is empty  @cost O(count log T) mostly
+/// Samples of the triangles of `from`, uniform by area: how many a triangle gets follows from the areas of those before it
+/// (systematic sampling), where they lie in it from its number. So the samples turn with the model. A surface without any
+/// area is sampled as if its triangles were of equal area. The same for any number of threads.
+/// @pre neither is empty  @cost O(T + count log T) mostly
 SampledDistance sample_faces(const SurfaceDistance& from, const SurfaceDistance& to, const SampleOptions& options);
 
 /// The vertices and edges of triangles, each once.
@@ -36,7 +37,7 @@ struct Outline {
     explicit Outline(std::span<const Triangle> triangles);
 };
 
-/// Samples of edges, uniform by length, likewise. positions: [V x 3].
+/// Samples of edges, uniform by length, likewise. positions: [V x 3]. @pre some edges
 SampledDistance sample_edges(const Outline& from, std::span<const float> positions, const SurfaceDistance& to,
                              const SampleOptions& options);
 
