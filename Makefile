@@ -24,6 +24,7 @@ bench:          ## speeds and memory
 	cmake --build build-bench
 	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
 	build-bench/bench/bench_player
+	build-bench/bench/bench_measures
 
 bench-effort: build ## the table of docs/effort.md
 	bench/effort.py --write

@@ -8,7 +8,7 @@ namespace meshreel::metrics {
 
 NearEdges::NearEdges(std::uint32_t vertex_count, std::span<const Triangle> triangles, std::uint32_t distance)
     : vertex_count_(vertex_count), distance_(distance), first_at_(vertex_count + 1ul, 0),
-      vertex_seen_by_(vertex_count, VertexId::none)
+      star_of_(vertex_count, VertexId::none)
 {
     const CornerTable table(vertex_count, triangles);
     edges_.reserve(table.edge_count());
@@ -20,41 +20,50 @@ NearEdges::NearEdges(std::uint32_t vertex_count, std::span<const Triangle> trian
     }
     for (std::size_t v = 1; v < first_at_.size(); ++v) first_at_[v] += first_at_[v - 1];
     edge_at_.resize(2 * edges_.size());
+    other_at_.resize(2 * edges_.size());
     std::vector<std::uint32_t> place(first_at_.begin(), first_at_.end() - 1);
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-        edge_at_[place[edges_[e].first]++] = e;
-        edge_at_[place[edges_[e].second]++] = e;
+        const auto [a, b] = edges_[e];
+        edge_at_[place[a]] = edge_at_[place[b]] = e;
+        other_at_[place[a]++] = b;
+        other_at_[place[b]++] = a;
     }
-    edge_seen_by_.assign(edges_.size(), VertexId::none);
 }
 
-void NearEdges::append_near(std::uint32_t v, std::vector<std::uint32_t>& list)
+/// The stars are those of all vertices at most `distance_` edges away but v itself, whose edges they have already; at
+/// distance 0 that of v.
+void NearEdges::append_near(std::uint32_t v, Run& run)
 {
-    std::vector<std::uint32_t> ring{v}, next_ring;
-    vertex_seen_by_[v] = v;
-    for (std::uint32_t step = 0; step <= distance_ && !ring.empty(); ++step) {
-        next_ring.clear();
-        for (std::uint32_t u : ring)
-            for (std::uint32_t e : edges_at(u)) {
-                if (edge_seen_by_[e] == v) continue;
-                edge_seen_by_[e] = v;
-                list.push_back(e);
-                const std::uint32_t other = edges_[e].first == u ? edges_[e].second : edges_[e].first;
-                if (vertex_seen_by_[other] == v) continue;
-                vertex_seen_by_[other] = v;
-                next_ring.push_back(other);
+    const std::size_t first = run.stars.size();
+    run.stars.push_back(v);
+    star_of_[v] = v;
+    for (std::size_t begin = first, step = 0; step < distance_ && begin < run.stars.size(); ++step) {
+        const std::size_t end = run.stars.size();
+        for (; begin < end; ++begin)
+            for (std::uint32_t i = first_at_[run.stars[begin]]; i < first_at_[run.stars[begin] + 1ul]; ++i) {
+                const std::uint32_t other = other_at_[i];
+                if (star_of_[other] == v) continue;
+                star_of_[other] = v;
+                run.stars.push_back(other);
             }
-        ring.swap(next_ring);
     }
+    if (distance_ > 0) {
+        star_of_[v] = VertexId::none;
+        run.stars.erase(run.stars.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+    for (std::size_t s = first; s < run.stars.size(); ++s)
+        for (std::uint32_t i = first_at_[run.stars[s]]; i < first_at_[run.stars[s] + 1ul]; ++i)
+            if (other_at_[i] > run.stars[s] && star_of_[other_at_[i]] == v) run.inner.push_back(edge_at_[i]);
 }
 
 NearEdges::Run NearEdges::run_from(std::uint32_t begin, std::size_t capacity)
 {
     Run run;
     run.begin = begin;
-    for (std::uint32_t v = begin; v < vertex_count_ && run.edges.size() < capacity; ++v) {
-        append_near(v, run.edges);
-        run.first.push_back(run.edges.size());
+    for (std::uint32_t v = begin; v < vertex_count_ && run.stars.size() + run.inner.size() < capacity; ++v) {
+        append_near(v, run);
+        run.first_star.push_back(run.stars.size());
+        run.first_inner.push_back(run.inner.size());
     }
     return run;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "meshreel/base/parallel.h"
 #include "meshreel/metrics/metric.h"
@@ -33,7 +34,7 @@ struct Sted {
 
 /// The spatial part. Edges of no length in the original weigh nothing; a vertex without edges (isolated, or all of its
 /// edges of no length) adds 0 to the mean. Degenerate triangles have no edges.
-/// @cost O(F sum of near edges): 30 F V on a regular mesh; a vertex of valence n costs n^2.
+/// @cost O(F E) at distance 0 and 1.
 double sted_spatial(const Pair<float>& pair, const StedOptions& options = {});
 double sted_spatial(const Pair<double>& pair, const StedOptions& options = {});
 
@@ -48,7 +49,7 @@ Sted sted(const Pair<float>& pair, const StedOptions& options = {});
 Sted sted(const Pair<double>& pair, const StedOptions& options = {});
 
 /// Both parts from runs of frames, one after the other: bit for bit those of all frames at once, however they are cut. The
-/// speeds of the last frames are kept, as the window of the next ones looks back at them: 200 bytes a vertex.
+/// speeds of the last frames are kept, as the window of the next ones looks back at them: 400 bytes a vertex.
 class RunningSted {
 public:
     RunningSted(std::uint32_t vertex_count, std::span<const Triangle> triangles, const StedOptions& options = {});
@@ -58,8 +59,8 @@ public:
     void add(const Pair<double>& frames);
     /// Of all frames added. To be called once, at the end. @pre a frame was added
     Sted finish();
-    /// [F] the spatial part of each frame alone.
-    const std::vector<double>& spatial_per_frame() const;
+    /// [F] of each frame alone, after finish().
+    std::vector<double> per_frame() const;
 
 private:
     struct Parts;
