@@ -9,3 +9,10 @@
 #else
 #define MESHREEL_WIDE
 #endif
+
+/// The same for AVX-512 too: for loops of square roots and quotients, which it doubles.
+#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
+#define MESHREEL_WIDEST __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#else
+#define MESHREEL_WIDEST MESHREEL_WIDE
+#endif

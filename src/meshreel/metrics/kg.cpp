@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "meshreel/base/wide.h"
 #include "meshreel/metrics/vertex_error.h"
 
 namespace meshreel::metrics {
@@ -18,23 +19,64 @@ struct FrameSums {
     double spread = 0.0; ///< sum of |p - centroid|^2
 };
 
+constexpr std::size_t kg_lanes = 24; ///< coordinates summed side by side: eight vertices
+
+using KgLanes = std::array<double, kg_lanes>;
+
+/// Sums over the vertices of each axis, from what stands in the lanes.
+std::array<double, 3> by_axis(const KgLanes& lanes)
+{
+    std::array<double, 3> axes{};
+    for (std::size_t i = 0; i < kg_lanes; ++i) axes[i % 3] += lanes[i];
+    return axes;
+}
+
+/// Adds the coordinates to the lanes, and the squares of the differences; `count` is at most kg_lanes.
+template <class T>
+inline __attribute__((always_inline)) void add_difference(const T* original, const T* distorted, std::size_t count,
+                                                          std::array<KgLanes, 2>& sums)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        const double value = original[i], error = value - distorted[i];
+        sums[0][i] += value;
+        sums[1][i] += error * error;
+    }
+}
+
+template <class T>
+inline __attribute__((always_inline)) void add_spread(const T* original, std::size_t count, const KgLanes& mean,
+                                                      KgLanes& sums)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        const double offset = original[i] - mean[i];
+        sums[i] += offset * offset;
+    }
+}
+
 // DEVIATES (5.2): E(A) is each frame's mean x, y and z, which is what Karni and Gotsman subtract.
 template <class T>
-FrameSums frame_sums(std::span<const T> original, std::span<const T> distorted)
+inline __attribute__((always_inline)) FrameSums measure_frame(std::span<const T> original, std::span<const T> distorted)
 {
-    std::array<double, 3> mean{};
-    for (std::size_t i = 0; i < original.size(); i += 3)
-        for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += original[i + axis];
-    for (double& m : mean) m /= static_cast<double>(original.size() / 3);
-    std::array<FrameSums, 3> axes{};
-    for (std::size_t i = 0; i < original.size(); i += 3)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double value = original[i + axis];
-            const double error = value - distorted[i + axis], offset = value - mean[axis];
-            axes[axis].error += error * error;
-            axes[axis].spread += offset * offset;
-        }
-    return {axes[0].error + axes[1].error + axes[2].error, axes[0].spread + axes[1].spread + axes[2].spread};
+    const std::size_t size = original.size(), whole = size - size % kg_lanes;
+    std::array<KgLanes, 2> sums{};
+    for (std::size_t i = 0; i < whole; i += kg_lanes) add_difference(&original[i], &distorted[i], kg_lanes, sums);
+    add_difference(original.data() + whole, distorted.data() + whole, size - whole, sums);
+    const std::array<double, 3> sum = by_axis(sums[0]), error = by_axis(sums[1]);
+    KgLanes mean{}, spreads{};
+    for (std::size_t i = 0; i < kg_lanes; ++i) mean[i] = sum[i % 3] / static_cast<double>(size / 3);
+    for (std::size_t i = 0; i < whole; i += kg_lanes) add_spread(&original[i], kg_lanes, mean, spreads);
+    add_spread(original.data() + whole, size - whole, mean, spreads);
+    const std::array<double, 3> spread = by_axis(spreads);
+    return {error[0] + error[1] + error[2], spread[0] + spread[1] + spread[2]};
+}
+
+MESHREEL_WIDE FrameSums frame_sums(std::span<const float> original, std::span<const float> distorted)
+{
+    return measure_frame(original, distorted);
+}
+MESHREEL_WIDE FrameSums frame_sums(std::span<const double> original, std::span<const double> distorted)
+{
+    return measure_frame(original, distorted);
 }
 
 double kg_of(double error, double spread)

@@ -2,21 +2,54 @@
 // SPDX-License-Identifier: MIT
 #include "meshreel/metrics/near_edges.h"
 
-#include "meshreel/mesh/corner_table.h"
+#include <algorithm>
+
+#include "meshreel/base/id.h"
 
 namespace meshreel::metrics {
+
+namespace {
+
+using EdgeList = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Pairs of vertices, lower first, that a triangle with three different vertices joins; rising, each once.
+EdgeList edges_of(std::uint32_t vertex_count, std::span<const Triangle> triangles)
+{
+    std::vector<std::size_t> first(vertex_count + 1ul, 0);
+    const auto for_sides = [&](const auto& visit) {
+        for (const auto& [a, b, c] : triangles) {
+            if (a == b || b == c || c == a) continue;
+            visit(std::min(a, b), std::max(a, b));
+            visit(std::min(b, c), std::max(b, c));
+            visit(std::min(c, a), std::max(c, a));
+        }
+    };
+    for_sides([&](std::uint32_t low, std::uint32_t) { ++first[low + 1ul]; });
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    std::vector<std::uint32_t> highs(first.back());
+    std::vector<std::size_t> place(first.begin(), first.end() - 1);
+    for_sides([&](std::uint32_t low, std::uint32_t high) { highs[place[low]++] = high; });
+    EdgeList edges;
+    edges.reserve(highs.size() / 2 + 1);
+    for (std::uint32_t low = 0; low < vertex_count; ++low) {
+        const std::span<std::uint32_t> at(highs.data() + first[low], first[low + 1ul] - first[low]);
+        std::sort(at.begin(), at.end());
+        for (std::size_t i = 0; i < at.size(); ++i)
+            if (i == 0 || at[i] != at[i - 1]) edges.emplace_back(low, at[i]);
+    }
+    return edges;
+}
+
+} // namespace
 
 NearEdges::NearEdges(std::uint32_t vertex_count, std::span<const Triangle> triangles, std::uint32_t distance)
     : vertex_count_(vertex_count), distance_(distance), first_at_(vertex_count + 1ul, 0),
       star_of_(vertex_count, VertexId::none)
 {
-    const CornerTable table(vertex_count, triangles);
-    edges_.reserve(table.edge_count());
-    for (std::uint32_t e = 0; e < table.edge_count(); ++e) {
-        const Edge edge = table.edge(e);
-        edges_.emplace_back(edge.low.value, edge.high.value);
-        ++first_at_[edge.low.value + 1ul];
-        ++first_at_[edge.high.value + 1ul];
+    edges_ = edges_of(vertex_count, triangles);
+    for (const auto& [a, b] : edges_) {
+        ++first_at_[a + 1ul];
+        ++first_at_[b + 1ul];
     }
     for (std::size_t v = 1; v < first_at_.size(); ++v) first_at_[v] += first_at_[v - 1];
     edge_at_.resize(2 * edges_.size());

@@ -17,7 +17,7 @@ class NearEdges {
 public:
     NearEdges(std::uint32_t vertex_count, std::span<const Triangle> triangles, std::uint32_t distance);
 
-    /// [E] lower and higher vertex.
+    /// [E] lower and higher vertex, rising.
     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges() const { return edges_; }
 
     /// Edges at a vertex.

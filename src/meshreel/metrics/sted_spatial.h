@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "meshreel/metrics/near_edges.h"
@@ -13,6 +14,7 @@ namespace meshreel::metrics {
 class SpatialSted {
 public:
     SpatialSted(std::uint32_t vertex_count, std::span<const Triangle> triangles, const StedOptions& options);
+    ~SpatialSted();
     void add(const Pair<float>& frames) { add_frames(frames); }
     void add(const Pair<double>& frames) { add_frames(frames); }
     double value() const; ///< (7.8)
@@ -36,7 +38,8 @@ private:
     std::uint32_t vertex_count_;
     StedOptions options_;
     NearEdges near_;
-    NearEdges::Run first_run_; ///< mostly the only one
+    NearEdges::Run first_run_;                 ///< mostly the only one
+    std::vector<std::unique_ptr<Room>> rooms_; ///< one a thread
     std::vector<double> per_frame_;
 };
 

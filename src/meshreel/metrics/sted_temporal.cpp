@@ -13,8 +13,8 @@ namespace meshreel::metrics {
 
 namespace {
 
-constexpr std::size_t speed_lanes = 8; ///< vertices measured side by side
-constexpr std::size_t speed_frames_at_once = 16;
+constexpr std::size_t speed_lanes = 32; ///< vertices measured side by side
+constexpr std::size_t speed_frames_at_once = 8;
 
 /// How a step becomes a length: sqrt(|step|^2 per_square + constant).
 struct SpeedScale {
@@ -27,34 +27,31 @@ inline __attribute__((always_inline)) void measure_speeds(std::span<const Now> n
                                                           SpeedScale scale, double* __restrict lengths)
 {
     const std::size_t count = now.size() / 3;
+    std::array<double, 3 * speed_lanes> square{};
+    std::array<double, speed_lanes> all{};
     for (std::size_t v = 0; v < count; v += speed_lanes) {
         const std::size_t used = std::min(speed_lanes, count - v);
-        std::array<double, 3 * speed_lanes> square{};
-        const Now* __restrict const p = now.data() + 3 * v;
-        const Before* __restrict const q = before.data() + 3 * v;
-        if (used == speed_lanes)
-            for (std::size_t i = 0; i < 3 * speed_lanes; ++i) square[i] = double{p[i]} - q[i];
-        else
-            for (std::size_t i = 0; i < 3 * used; ++i) square[i] = double{p[i]} - q[i];
+        for (std::size_t i = 0; i < 3 * used; ++i) square[i] = double{now[3 * v + i]} - before[3 * v + i];
         for (double& d : square) d *= d;
-        std::array<double, speed_lanes> all;
         for (std::size_t lane = 0; lane < speed_lanes; ++lane)
-            all[lane] = std::sqrt((square[3 * lane] + square[3 * lane + 1] + square[3 * lane + 2]) * scale.per_square +
-                                  scale.constant); // (7.10)
+            all[lane] = square[3 * lane] + square[3 * lane + 1] + square[3 * lane + 2];
+        for (double& length : all) length = std::sqrt(length * scale.per_square + scale.constant); // (7.10)
         std::copy_n(all.begin(), used, lengths + v);
     }
 }
 
-MESHREEL_WIDE void speeds(std::span<const float> now, std::span<const float> before, SpeedScale scale, double* lengths)
+MESHREEL_WIDEST void speeds(std::span<const float> now, std::span<const float> before, SpeedScale scale,
+                            double* lengths)
 {
     measure_speeds(now, before, scale, lengths);
 }
-MESHREEL_WIDE void speeds(std::span<const double> now, std::span<const double> before, SpeedScale scale,
-                          double* lengths)
+MESHREEL_WIDEST void speeds(std::span<const double> now, std::span<const double> before, SpeedScale scale,
+                            double* lengths)
 {
     measure_speeds(now, before, scale, lengths);
 }
-MESHREEL_WIDE void speeds(std::span<const float> now, std::span<const double> before, SpeedScale scale, double* lengths)
+MESHREEL_WIDEST void speeds(std::span<const float> now, std::span<const double> before, SpeedScale scale,
+                            double* lengths)
 {
     measure_speeds(now, before, scale, lengths);
 }
@@ -66,7 +63,7 @@ struct SpeedWindow {
 };
 
 /// The sum of |tel - tel'| / s over `count` vertices, a multiple of speed_lanes.
-MESHREEL_WIDE double sum_of_differences(const SpeedWindow& window, std::size_t count)
+MESHREEL_WIDEST double sum_of_differences(const SpeedWindow& window, std::size_t count)
 {
     std::array<double, speed_lanes> sums{};
     const double row_count = static_cast<double>(window.rows.size());

@@ -10,7 +10,7 @@
 namespace meshreel::metrics {
 
 /// From runs of frames, one after the other. A frame is counted once all frames of its window are known; the speeds of 2w +
-/// 16 frames are kept, 16 bytes a vertex and frame.  @cost O(F V w).  @source thesis 7.3.2, (7.9)-(7.13)
+/// 8 frames are kept, 16 bytes a vertex and frame.  @cost O(F V w).  @source thesis 7.3.2, (7.9)-(7.13)
 class TemporalSted {
 public:
     TemporalSted(std::size_t vertex_count, const StedOptions& options);
