@@ -22,7 +22,7 @@ struct MeasureSettings {
 };
 
 /// What this program has used of a processor: what else the machine does counts less.
-double processor_s()
+double used_processor_s()
 {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -87,9 +87,9 @@ void run_source(const bench::Source& source, int repetitions)
     std::vector<MeasureRow> rows = measure_rows();
     for (int i = 0; i < repetitions; ++i)
         for (MeasureRow& row : rows) {
-            const double start = processor_s();
+            const double start = used_processor_s();
             row.result = row.work(original, distorted);
-            row.seconds = std::min(row.seconds, processor_s() - start);
+            row.seconds = std::min(row.seconds, used_processor_s() - start);
         }
     std::printf("%s: V %u, T %zu, F %zu\n", source.name.c_str(), original.vertex_count, original.triangles.size(),
                 original.frame_count());
@@ -98,7 +98,7 @@ void run_source(const bench::Source& source, int repetitions)
                     row.seconds / rows.front().seconds, row.result);
 }
 
-MeasureSettings settings_of(int count, char** words)
+MeasureSettings measure_settings_of(int count, char** words)
 {
     MeasureSettings settings;
     for (int i = 1; i + 1 < count; i += 2) {
@@ -119,7 +119,7 @@ MeasureSettings settings_of(int count, char** words)
 
 int main(int count, char** words)
 try {
-    const MeasureSettings settings = settings_of(count, words);
+    const MeasureSettings settings = measure_settings_of(count, words);
     for (const bench::Source& source : bench::sources(settings.data, settings.only))
         run_source(source, settings.repetitions);
     return 0;
