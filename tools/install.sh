@@ -11,7 +11,7 @@ packages=(
     libeigen3-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev libzstd-dev libpng-dev
 )
 check_packages=(
-    libgtest-dev libgmock-dev ccache clang clang-format libclang-rt-14-dev universal-ctags
+    git libgtest-dev libgmock-dev ccache clang clang-format libclang-rt-14-dev universal-ctags
 )
 gltf_validator=2.0.0-dev.3.10
 

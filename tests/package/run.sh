@@ -18,7 +18,7 @@ for frame in 0 1; do
 done
 
 echo "by find_package"
-cmake -S . -B build -DCMAKE_PREFIX_PATH="$outside/prefix" -DCMAKE_CXX_COMPILER="$compiler"
+cmake -G Ninja -S . -B build -DCMAKE_PREFIX_PATH="$outside/prefix" -DCMAKE_CXX_COMPILER="$compiler"
 cmake --build build
 build/outside
 test -s walk.reel && rm walk.reel
