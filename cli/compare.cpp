@@ -9,6 +9,7 @@
 #include "cli/choice.h"
 #include "cli/figures.h"
 #include "cli/numbers.h"
+#include "cli/pictures/compare_pictures.h"
 #include "cli/reel_file.h"
 #include "cli/source.h"
 #include "cli/verb.h"
@@ -70,11 +71,13 @@ public:
             ->type_name("keep|free");
         original_.declare(app);
         choice_.declare_bounds(app);
+        pictures_.declare(app);
         app.footer("Examples:\n"
                    "  meshreel compare walk.glb walk.reel\n"
                    "  meshreel compare motion.pc2 back.pc2 --mesh mesh.obj --fail-above kg=0.1,sted=0.01\n"
                    "  meshreel compare a.reel b.reel --metric kg,sted --set sted.window=3 --json\n"
-                   "  meshreel compare motion.pc2 free.pc2 --mesh mesh.obj --order free\n");
+                   "  meshreel compare motion.pc2 free.pc2 --mesh mesh.obj --order free\n"
+                   "  meshreel compare a.glb a.reel --heatmap a.html --heat sted --curves a.svg --strip a.png\n");
     }
 
     Result<Report> run(Console& console) override
@@ -85,7 +88,10 @@ public:
         MESHREEL_TRY(std::vector<Taken> taken,
                      in_file(choice_.measures(still, compared.distorted().still()), distorted_.path));
         warn_of_differences(compared, console);
+        const PictureInputs inputs{compared.original(), compared.distorted(), original_.path, distorted_.path};
+        MESHREEL_CHECK(pictures_.prepare(inputs, console));
         MESHREEL_CHECK(measure(compared, taken, console));
+        MESHREEL_CHECK(pictures_.draw(inputs, taken, console));
         Json figures{{"schema", "meshreel.compare/2"}, {"original", original_.path}, {"distorted", distorted_.path}};
         add_counts(figures, still);
         figures["order"] = compared.renumbered ? "free" : "keep";
@@ -97,6 +103,7 @@ public:
         report.text = fmt::format("{} against {}: {}\n", distorted_.path, original_.path, counts_text(still));
         report.text += values_text(taken);
         choice_.judge(taken, report);
+        report.figures["pictures"] = pictures_.figures();
         report.figures["seconds"] = watch.seconds();
         report.figures["peak_memory_bytes"] = peak_memory_bytes();
         return report;
@@ -151,10 +158,11 @@ private:
                                      distorted_.path, same.error().message));
     }
 
-    Status measure(const Compared& compared, std::vector<Taken>& taken, Console& console) const
+    Status measure(const Compared& compared, std::vector<Taken>& taken, Console& console)
     {
         std::vector<metrics::Wanted> wanted;
         for (const Taken& one : taken) wanted.push_back(one.wanted);
+        pictures_.listen(wanted);
         MESHREEL_TRY(std::vector<metrics::Measured> found,
                      in_file(metrics::measure(compared.original(), compared.distorted(), wanted,
                                               {original_.threads, console.progress()}),
@@ -167,6 +175,7 @@ private:
     std::string format_;
     std::string order_ = "keep";
     Choice choice_;
+    ComparePictures pictures_;
 };
 
 } // namespace

@@ -7,7 +7,7 @@
 
 #include "cli/figures.h"
 #include "cli/numbers.h"
-#include "cli/picture.h"
+#include "cli/pictures/picture.h"
 #include "cli/source.h"
 #include "cli/target.h"
 #include "cli/verb.h"

@@ -1,6 +1,6 @@
 /// Chooses the frames, paints the panels and lays them out as SVG.
 // SPDX-License-Identifier: MIT
-#include "cli/picture.h"
+#include "cli/pictures/picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,30 +9,17 @@
 
 #include <fmt/format.h>
 
-#include "cli/render.h"
+#include "cli/pictures/colour_map.h"
+#include "cli/pictures/render.h"
+#include "cli/pictures/svg.h"
 
 namespace meshreel::cli {
 
 namespace {
 
 constexpr std::size_t oversampling = 3;
-constexpr double left = 132, top = 78, gap = 10, scale_height = 74; ///< margins of the layout, pixels
-
-/// The colour scale viridis (Smith, van der Walt; CC0), ten of its colours.
-constexpr std::array viridis{"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
-                             "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
-
-Colour viridis_at(double x)
-{
-    const double place = std::clamp(x, 0.0, 1.0) * static_cast<double>(viridis.size() - 1);
-    const std::size_t i = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
-    const float share = static_cast<float>(place - static_cast<double>(i));
-    const Colour low = colour_of(viridis[i]);
-    const Colour high = colour_of(viridis[i + 1]);
-    Colour mixed{};
-    for (std::size_t c = 0; c < 3; ++c) mixed[c] = (1.0f - share) * low[c] + share * high[c];
-    return mixed;
-}
+constexpr double picture_left = 132, picture_top = 78, picture_gap = 10,
+                 scale_height = 74; ///< margins of the layout, pixels
 
 /// Frames in the middle of equal parts of the animation; the first and the last where there are two or more.
 std::vector<std::size_t> spread(std::size_t frame_count, std::size_t wanted)
@@ -58,46 +45,6 @@ std::vector<double> errors(const Animation& original, const Animation& decoded, 
         percent[v] = diagonal > 0.0 ? 100.0 * std::sqrt(squared) / diagonal : 0.0;
     }
     return percent;
-}
-
-/// The top of the colour scale: the smallest of 1, 1.5, 2, 3, 4, 6, 8 x 10^n that is not below the error.
-double round_up(double error)
-{
-    if (error <= 0.0) return 0.0;
-    const double decade = std::pow(10.0, std::floor(std::log10(error)));
-    for (double step : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0})
-        if (step * decade >= error * (1.0 - 1e-9)) return step * decade;
-    return 10.0 * decade;
-}
-
-/// Into how many round parts the scale divides.
-int tick_count(double top_of_scale)
-{
-    if (top_of_scale <= 0.0) return 1;
-    const double leading = top_of_scale / std::pow(10.0, std::floor(std::log10(top_of_scale) + 1e-9));
-    for (double three : {1.5, 3.0, 6.0})
-        if (std::abs(leading - three) < 0.1) return 3;
-    return std::abs(leading - 1.0) < 0.1 ? 5 : 4;
-}
-
-std::string base64(ByteView bytes)
-{
-    constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t j = 0; j < 3; ++j) group = group << 8 | (j < count ? bytes[i + j] : 0u);
-        for (std::size_t j = 0; j < 4; ++j) text += j <= count ? letters[(group >> (18 - 6 * j)) & 63u] : '=';
-    }
-    return text;
-}
-
-std::string escaped(const std::string& text)
-{
-    std::string safe;
-    for (char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return safe;
 }
 
 std::string text_at(double x, double y, const std::string& style, const std::string& text)
@@ -127,13 +74,15 @@ public:
           frames_(spread(original.frame_count(), options.frames))
     {
         const Axis up = options.up != Axis::unknown ? options.up : original.meta.up;
-        camera_ = look_at(original, frames_, up, options.panel_width * oversampling);
+        std::vector<Pose> poses;
+        for (std::size_t f : frames_) poses.push_back(original.frame(f));
+        camera_ = look_at(poses, {up, 0.0, options.panel_width * oversampling});
         panel_height_ = static_cast<double>(camera_.height / oversampling);
-        width_ = left + static_cast<double>(frames_.size()) * (column() + gap) + 8.0;
-        height_ = top + 3.0 * (panel_height_ + gap) + scale_height;
+        width_ = picture_left + static_cast<double>(frames_.size()) * (column() + picture_gap) + 8.0;
+        height_ = picture_top + 3.0 * (panel_height_ + picture_gap) + scale_height;
         for (std::size_t f = 0; f < original.frame_count(); ++f)
             for (double e : errors(original, decoded, f)) largest_ = std::max(largest_, e);
-        scale_ = round_up(largest_);
+        scale_ = scale_up_to(largest_);
     }
 
     Result<std::string> draw()
@@ -146,7 +95,10 @@ public:
 
 private:
     double column() const { return static_cast<double>(options_.panel_width); }
-    double row_top(std::size_t row) const { return top + static_cast<double>(row) * (panel_height_ + gap); }
+    double row_top(std::size_t row) const
+    {
+        return picture_top + static_cast<double>(row) * (panel_height_ + picture_gap);
+    }
 
     void begin()
     {
@@ -166,16 +118,15 @@ private:
     Status draw_column(std::size_t column_index)
     {
         const std::size_t f = frames_[column_index];
-        const double x = left + static_cast<double>(column_index) * (column() + gap);
-        svg_ +=
-            text_at(x + 0.5 * column(), top - 10, "mid", fmt::format("frame {}, {:.2f} s", f, original_.times_s[f]));
+        const double x = picture_left + static_cast<double>(column_index) * (column() + picture_gap);
+        svg_ += text_at(x + 0.5 * column(), picture_top - 10, "mid",
+                        fmt::format("frame {}, {:.2f} s", f, original_.times_s[f]));
         const std::vector<Colour> clay(original_.vertex_count, colour_of("#cdb99c"));
         MESHREEL_CHECK(draw_panel({original_.triangles, original_.frame(f), clay}, {x, row_top(0)}));
         MESHREEL_CHECK(draw_panel({original_.triangles, decoded_.frame(f), clay}, {x, row_top(1)}));
         std::vector<Colour> painted(original_.vertex_count);
         const std::vector<double> percent = errors(original_, decoded_, f);
-        for (std::size_t v = 0; v < painted.size(); ++v)
-            painted[v] = viridis_at(scale_ > 0.0 ? percent[v] / scale_ : 0.0);
+        for (std::size_t v = 0; v < painted.size(); ++v) painted[v] = viridis(scale_.place(percent[v]));
         return draw_panel({original_.triangles, decoded_.frame(f), painted, 0.45}, {x, row_top(2)});
     }
 
@@ -194,20 +145,20 @@ private:
     void draw_scale()
     {
         const double y = height_ - scale_height + 14;
-        const double wide = std::min(420.0, width_ - left - 26);
+        const double wide = std::min(420.0, width_ - picture_left - 26);
         svg_ += "<defs><linearGradient id=\"scale\">";
-        for (std::size_t i = 0; i < viridis.size(); ++i)
+        for (std::size_t i = 0; i < viridis_colours.size(); ++i)
             svg_ += fmt::format("<stop offset=\"{:.4f}\" stop-color=\"{}\"/>",
-                                static_cast<double>(i) / static_cast<double>(viridis.size() - 1), viridis[i]);
+                                static_cast<double>(i) / static_cast<double>(viridis_colours.size() - 1),
+                                viridis_colours[i]);
         svg_ += fmt::format("</linearGradient></defs>\n<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" "
                             "rx=\"3\" fill=\"url(#scale)\"/>\n",
-                            left, y, wide);
-        const int parts = tick_count(scale_);
-        for (int i = 0; i <= parts; ++i)
-            svg_ += text_at(left + wide * i / parts, y + 32, i == 0 ? "small" : "mid",
-                            fmt::format("{:.3g}", scale_ * i / parts));
+                            picture_left, y, wide);
+        for (int i = 0; i <= scale_.parts; ++i)
+            svg_ += text_at(picture_left + wide * i / scale_.parts, y + 32, i == 0 ? "small" : "mid",
+                            short_number(scale_.tick(i)));
         svg_ += text_at(18, y + 12, "small", "error, %");
-        svg_ += text_at(left, y + 50, "small",
+        svg_ += text_at(picture_left, y + 50, "small",
                         fmt::format("distance from the original in percent of the body diagonal; largest of all {} "
                                     "frames: {:.3g} %",
                                     original_.frame_count(), largest_));
@@ -219,7 +170,8 @@ private:
     std::vector<std::size_t> frames_;
     Camera camera_;
     double panel_height_ = 0.0, width_ = 0.0, height_ = 0.0; ///< pixels
-    double largest_ = 0.0, scale_ = 0.0;                     ///< percent of the body diagonal
+    double largest_ = 0.0;                                   ///< percent of the body diagonal
+    Scale scale_;
     std::string svg_;
 };
 

@@ -1,10 +1,11 @@
 /// The camera, the shading and the z-buffer.
 // SPDX-License-Identifier: MIT
-#include "cli/render.h"
+#include "cli/pictures/render.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace meshreel::cli {
@@ -50,12 +51,12 @@ struct Bounds {
     double size(std::size_t axis) const { return high[axis] - low[axis]; }
 };
 
-Bounds projected_bounds(const Animation& animation, std::span<const std::size_t> frames, const Camera& camera)
+Bounds projected_bounds(std::span<const Pose> poses, const Camera& camera)
 {
     Bounds bounds;
-    for (std::size_t f : frames) {
-        for (std::size_t v = 0; v < animation.vertex_count; ++v) {
-            const Vector p = point(animation.frame(f), v);
+    for (const Pose& pose : poses) {
+        for (std::size_t v = 0; v < pose.size() / 3; ++v) {
+            const Vector p = point(pose, v);
             for (std::size_t axis = 0; axis < 2; ++axis) {
                 const double x = dot(p, camera.axes[axis]);
                 bounds.low[axis] = std::min(bounds.low[axis], x);
@@ -152,9 +153,34 @@ public:
         }
     }
 
+    /// colour(x, y, z): of a ball where its normal points to the right, down and to the eye by so much.
+    template <class Lit>
+    void draw_ball(const Corner& c, double radius, const Lit& colour)
+    {
+        const auto [x0, x1] = pixel_range(c.x - radius, c.x + radius, image.width);
+        const auto [y0, y1] = pixel_range(c.y - radius, c.y + radius, image.height);
+        for (std::size_t y = y0; y < y1; ++y) {
+            for (std::size_t x = x0; x < x1; ++x) {
+                const double dx = (static_cast<double>(x) + 0.5 - c.x) / radius;
+                const double dy = (static_cast<double>(y) + 0.5 - c.y) / radius;
+                const double square = 1.0 - dx * dx - dy * dy;
+                if (square <= 0.0) continue;
+                const double dz = std::sqrt(square), depth = c.depth - radius * dz;
+                if (depth < depth_[y * image.width + x]) set(y * image.width + x, depth, colour(dx, dy, dz));
+            }
+        }
+    }
+
     Image image;
 
 private:
+    void set(std::size_t pixel, double depth, const Colour& colour)
+    {
+        depth_[pixel] = depth;
+        image.colours[pixel] = colour;
+        image.opacity[pixel] = 1.0f;
+    }
+
     void put(std::size_t pixel, const std::array<const Corner*, 3>& corners, const std::array<double, 3>& weights)
     {
         double depth = 0.0;
@@ -163,35 +189,86 @@ private:
             depth += weights[i] * corners[i]->depth;
             for (std::size_t c = 0; c < 3; ++c) colour[c] += static_cast<float>(weights[i]) * corners[i]->colour[c];
         }
-        if (depth >= depth_[pixel]) return;
-        depth_[pixel] = depth;
-        image.colours[pixel] = colour;
-        image.opacity[pixel] = 1.0f;
+        if (depth < depth_[pixel]) set(pixel, depth, colour);
     }
 
     std::vector<double> depth_;
 };
 
-} // namespace
-
-Camera look_at(const Animation& animation, std::span<const std::size_t> frames, Axis up, std::size_t width)
+/// Every vertex as a ball, so large that those of a surface nearly touch.
+void draw_balls(Raster& raster, std::span<const Corner> corners, const Scene& scene, const Camera& camera)
 {
-    constexpr double margin = 1.06;
+    const double area = static_cast<double>(camera.width * camera.height) / static_cast<double>(corners.size() + 1);
+    const double radius = std::clamp(0.4 * std::sqrt(area), 2.0, 24.0);
+    for (std::size_t v = 0; v < corners.size(); ++v) {
+        const Corner& c = corners[v];
+        const auto lit = [&](double dx, double dy, double dz) {
+            Vector normal{};
+            for (std::size_t i = 0; i < 3; ++i)
+                normal[i] = dx * camera.axes[0][i] + dy * camera.axes[1][i] - dz * camera.axes[2][i];
+            return shade(scene.colours[v], normal, scene.relief, camera);
+        };
+        raster.draw_ball(c, radius, lit);
+    }
+}
+
+/// The camera's axes after the object has turned about its upright axis.
+Camera turned(Axis up, double turn)
+{
     const auto [above, front] = up_and_front(up);
     const Vector side = cross(above, front);
-    Vector away{};
-    for (std::size_t i = 0; i < 3; ++i) away[i] = 0.45 * side[i] - 0.42 * above[i] - 0.79 * front[i];
+    Vector towards{}, right{}, away{};
+    for (std::size_t i = 0; i < 3; ++i) towards[i] = std::cos(turn) * front[i] - std::sin(turn) * side[i];
+    right = cross(above, towards);
+    for (std::size_t i = 0; i < 3; ++i) away[i] = 0.45 * right[i] - 0.42 * above[i] - 0.79 * towards[i];
     Camera camera;
     camera.axes[2] = unit(away);
     camera.axes[0] = unit(cross(camera.axes[2], above));
     camera.axes[1] = cross(camera.axes[2], camera.axes[0]);
-    const Bounds bounds = projected_bounds(animation, frames, camera);
-    const double wide = std::max(bounds.size(0), 1e-30);
-    const double aspect = std::clamp(bounds.size(1) / wide, 0.5, 1.2);
-    camera.width = width;
-    camera.height = static_cast<std::size_t>(aspect * static_cast<double>(width));
-    camera.pixels_per_unit = static_cast<double>(width) / (margin * std::max(wide, bounds.size(1) / aspect));
-    for (std::size_t axis = 0; axis < 2; ++axis) camera.centre[axis] = 0.5 * (bounds.low[axis] + bounds.high[axis]);
+    return camera;
+}
+
+/// Each camera looks at the middle of its bounds; scale and size are those that all of them need.
+void fit(std::span<Camera> cameras, std::span<const Bounds> bounds, std::size_t width)
+{
+    constexpr double margin = 1.06;
+    double wide = 1e-30, high = 0.0;
+    for (const Bounds& one : bounds) {
+        wide = std::max(wide, one.size(0));
+        high = std::max(high, one.size(1));
+    }
+    const double aspect = std::clamp(high / wide, 0.5, 1.2);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        Camera& camera = cameras[i];
+        camera.width = width;
+        camera.height = static_cast<std::size_t>(aspect * static_cast<double>(width));
+        camera.pixels_per_unit = static_cast<double>(width) / (margin * std::max(wide, high / aspect));
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            camera.centre[axis] = 0.5 * (bounds[i].low[axis] + bounds[i].high[axis]);
+    }
+}
+
+} // namespace
+
+std::vector<Camera> turntable(std::span<const Pose> poses, const View& first)
+{
+    const std::size_t count = poses.size();
+    std::vector<Camera> cameras;
+    std::vector<Bounds> bounds;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count);
+        cameras.push_back(turned(first.up, first.turn + 2.0 * std::numbers::pi * share));
+        bounds.push_back(projected_bounds(poses.subspan(i, 1), cameras.back()));
+    }
+    fit(cameras, bounds, first.width);
+    return cameras;
+}
+
+Camera look_at(std::span<const Pose> poses, const View& view)
+{
+    Camera camera = turned(view.up, view.turn);
+    const Bounds bounds = projected_bounds(poses, camera);
+    fit({&camera, 1}, {&bounds, 1}, view.width);
     return camera;
 }
 
@@ -199,6 +276,7 @@ Image render(const Scene& scene, const Camera& camera)
 {
     const std::vector<Corner> corners = project(scene, camera);
     Raster raster(camera.width, camera.height);
+    if (scene.triangles.empty()) draw_balls(raster, corners, scene, camera);
     for (const Triangle& t : scene.triangles) raster.draw(corners[t[0]], corners[t[1]], corners[t[2]]);
     return std::move(raster.image);
 }

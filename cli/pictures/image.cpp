@@ -1,6 +1,6 @@
 /// Pixels, shrinking, and PNG by libpng.
 // SPDX-License-Identifier: MIT
-#include "cli/image.h"
+#include "cli/pictures/image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,6 @@
 namespace meshreel::cli {
 
 namespace {
-
-float to_linear(float value)
-{
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
 
 std::uint8_t to_byte(float linear)
 {
@@ -45,10 +40,16 @@ Image::Image(std::size_t columns, std::size_t rows)
 {
 }
 
+float linear_of(std::uint8_t channel)
+{
+    const float value = static_cast<float>(channel) / 255.0f;
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
 Colour colour_of(const char* hex)
 {
     const unsigned long value = std::strtoul(hex + 1, nullptr, 16);
-    const auto channel = [&](int shift) { return to_linear(static_cast<float>((value >> shift) & 255u) / 255.0f); };
+    const auto channel = [&](int shift) { return linear_of(static_cast<std::uint8_t>(value >> shift & 255u)); };
     return {channel(16), channel(8), channel(0)};
 }
 
@@ -65,6 +66,47 @@ Image shrink(const Image& large, std::size_t times)
         }
     }
     return small;
+}
+
+void blend(Image& image, std::size_t pixel, const Colour& colour, float share)
+{
+    for (std::size_t c = 0; c < 3; ++c)
+        image.colours[pixel][c] = (1.0f - share) * image.colours[pixel][c] + share * colour[c];
+    image.opacity[pixel] = (1.0f - share) * image.opacity[pixel] + share;
+}
+
+void fill(Image& image, const Box& box, const Colour& colour, double radius)
+{
+    const auto inside = [](double at, std::size_t size) {
+        return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(size)));
+    };
+    const std::size_t x1 = inside(std::ceil(box.x + box.width), image.width);
+    const std::size_t y1 = inside(std::ceil(box.y + box.height), image.height);
+    for (std::size_t y = inside(std::floor(box.y), image.height); y < y1; ++y) {
+        for (std::size_t x = inside(std::floor(box.x), image.width); x < x1; ++x) {
+            // how far the pixel's middle is outside the box that is smaller by the radius; below 0: inside it
+            const double dx =
+                std::abs(static_cast<double>(x) + 0.5 - box.x - 0.5 * box.width) - 0.5 * box.width + radius;
+            const double dy =
+                std::abs(static_cast<double>(y) + 0.5 - box.y - 0.5 * box.height) - 0.5 * box.height + radius;
+            const double outside =
+                std::hypot(std::max(dx, 0.0), std::max(dy, 0.0)) + std::min(0.0, std::max(dx, dy)) - radius;
+            blend(image, y * image.width + x, colour, static_cast<float>(std::clamp(0.5 - outside, 0.0, 1.0)));
+        }
+    }
+}
+
+void paste(Image& image, const Image& small, std::size_t x, std::size_t y)
+{
+    for (std::size_t row = 0; row < small.height && y + row < image.height; ++row) {
+        for (std::size_t column = 0; column < small.width && x + column < image.width; ++column) {
+            const std::size_t from = row * small.width + column, to = (y + row) * image.width + x + column;
+            const float under = 1.0f - small.opacity[from];
+            for (std::size_t c = 0; c < 3; ++c)
+                image.colours[to][c] = small.colours[from][c] + under * image.colours[to][c];
+            image.opacity[to] = small.opacity[from] + under * image.opacity[to];
+        }
+    }
 }
 
 Result<Bytes> png(const Image& image)
