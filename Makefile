@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz bench bench-effort bench-rate bench-scale bench-search figures format docs clean
+.PHONY: build demo check test fuzz bench bench-effort bench-rate bench-scale bench-search bench-surfaces figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -34,6 +34,9 @@ bench-scale: build  ## how cost grows with V and F: the table of docs/benchmarks
 
 bench-search: build ## what looking for a target costs, in encodes
 	bench/search.py
+
+bench-surfaces: build ## distances of surfaces beside MeshLab (tools/install.sh --with-meshlab)
+	bench/surfaces.py
 
 bench-rate: build   ## rates at given errors beside what they must be: bench/ledger.csv and the README's table
 	bench/rate.py --ledger bench/ledger.csv

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs from Debian what is missing and asks nothing: for ./demo; --check: for ./check too; --with-blender: Blender for its tests;
-# --with-figures: what make figures draws with.
+# --with-meshlab: MeshLab and a screen for it, for its tests and bench; --with-figures: what make figures draws with.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 
@@ -20,8 +20,9 @@ for option in "$@"; do
     case $option in
         --check) want_check=yes; packages+=("${check_packages[@]}") ;;
         --with-blender) packages+=(blender python3-numpy) ;;
+        --with-meshlab) packages+=(meshlab xvfb xauth libgl1-mesa-dri) ;;
         --with-figures) packages+=(python3-matplotlib) ;;
-        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-figures]" >&2; exit 1 ;;
+        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-meshlab] [--with-figures]" >&2; exit 1 ;;
     esac
 done
 # Whoever has a Node of his own keeps it.

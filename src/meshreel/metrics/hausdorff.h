@@ -11,8 +11,8 @@
 namespace meshreel::metrics {
 
 struct HausdorffOptions {
-    double tolerance = 0.0;         ///< upper - lower bound of a frame is at most this, model units, >= 0
-    std::size_t most_cuts = 200000; ///< ... unless more cuts a frame and direction would be needed
+    double tolerance = 0.0;          ///< upper - lower bound of a frame is at most this, model units, >= 0
+    std::size_t most_cuts = 2000000; ///< ... unless more cuts a frame and direction would be needed
     std::size_t samples = 0; ///< a frame and direction: of faces for the RMS; when sampling as many of edges too.
                              ///< 0: as many as triangles, but a thousand at least
     std::uint64_t seed = 1;  ///< of the samples

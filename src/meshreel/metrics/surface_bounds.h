@@ -15,7 +15,7 @@ struct SurfaceFrame {
 
 struct BoundOptions {
     double tolerance = 0.0;          ///< upper - lower is at most this, model units, >= 0 ...
-    std::size_t most_cuts = 500000;  ///< ... unless more cuts than these were needed
+    std::size_t most_cuts = 2000000; ///< ... unless more cuts than these were needed
     bool same_triangles = false;     ///< triangle t of one is likely near triangle t of the other
     std::span<double> vertices = {}; ///< [V] or empty: is filled with the distance of every vertex, model units
 };
