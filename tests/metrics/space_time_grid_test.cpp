@@ -198,7 +198,8 @@ TEST(SpaceTimeGrid, StaysSmallWhereTheWholeMeshJumps)
     const SpaceTimeLayer layer(moving.surface, 0, 0.01, {});
     EXPECT_LT(layer.bytes(), 20'000'000u);
     NearestQuery query{.at = {20, 40, 60, 0.001}};
-    layer.search(query);
+    MetTetrahedra met(moving.tetrahedra.size());
+    layer.search(query, met);
     double least = HUGE_VAL;
     for (std::size_t t = 0; t < moving.tetrahedra.size(); ++t)
         least = std::min(least, squared_distance_to_tetrahedron(query.at, moving.surface.corners(0, t)));

@@ -75,7 +75,8 @@ void SpaceTimeGrid::search_layer(std::size_t interval, std::span<NearestQuery> q
     const std::size_t blocks = (queries.size() + queries_a_block - 1) / queries_a_block;
     parallel_for(blocks, threads_, [&](std::size_t b) {
         const std::size_t end = std::min(queries.size(), (b + 1) * queries_a_block);
-        for (std::size_t i = b * queries_a_block; i < end; ++i) there.search(queries[i]);
+        MetTetrahedra met(surface_.tetrahedra.size());
+        for (std::size_t i = b * queries_a_block; i < end; ++i) there.search(queries[i], met);
     });
     touched_.push_back(interval);
     if (bytes_ > most_bytes_) {

@@ -232,9 +232,10 @@ double SpaceTimeLayer::squared_to_cells(const NearestQuery& query, const Cell& l
     return sum;
 }
 
-void SpaceTimeLayer::test(NearestQuery& query, std::uint32_t tetrahedron) const
+void SpaceTimeLayer::test(const Search& search, std::uint32_t tetrahedron) const
 {
-    if (squared_to_box(query, tetrahedron) >= query.squared) return;
+    NearestQuery& query = search.query;
+    if (squared_to_box(query, tetrahedron) >= query.squared || !search.met.first_time(tetrahedron)) return;
     const double squared =
         squared_distance_to_tetrahedron(query.at, surface_.corners(interval_, tetrahedron), query.squared);
     if (squared >= query.squared) return;
@@ -242,15 +243,16 @@ void SpaceTimeLayer::test(NearestQuery& query, std::uint32_t tetrahedron) const
     query.nearest = tetrahedron;
 }
 
-void SpaceTimeLayer::search_cell(NearestQuery& query, const Cell& cell) const
+void SpaceTimeLayer::search_cell(const Search& search, const Cell& cell) const
 {
     const std::size_t c = (cell[2] * dims_[1] + cell[1]) * dims_[0] + cell[0];
-    for (std::uint32_t i = starts_[c]; i < starts_[c + 1]; ++i) test(query, entries_[i]);
+    for (std::uint32_t i = starts_[c]; i < starts_[c + 1]; ++i) test(search, entries_[i]);
 }
 
 /// Looks through the cells that the ball around the point touches. False: they are too many.
-bool SpaceTimeLayer::search_around(NearestQuery& query) const
+bool SpaceTimeLayer::search_around(const Search& search) const
 {
+    const NearestQuery& query = search.query;
     const double radius = std::sqrt(query.squared - squared_gap(query.at[3])) * (1.0 + 1e-12);
     Cell low, high;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -262,18 +264,19 @@ bool SpaceTimeLayer::search_around(NearestQuery& query) const
         for (std::size_t y = low[1]; y < high[1]; ++y)
             for (std::size_t x = low[0]; x < high[0]; ++x)
                 if (squared_to_cells(query, {x, y, z}, {x + 1, y + 1, z + 1}) < query.squared)
-                    search_cell(query, {x, y, z});
+                    search_cell(search, {x, y, z});
     return true;
 }
 
-void SpaceTimeLayer::descend(NearestQuery& query, std::size_t level, const Cell& node) const
+void SpaceTimeLayer::descend(const Search& search, std::size_t level, const Cell& node) const
 {
+    const NearestQuery& query = search.query;
     const Level& here = pyramid_[level];
     if (here.used[(node[2] * here.dims[1] + node[1]) * here.dims[0] + node[0]] == 0) return;
     const std::size_t size = std::size_t{1} << level;
     const Cell low{node[0] * size, node[1] * size, node[2] * size};
     if (squared_to_cells(query, low, {low[0] + size, low[1] + size, low[2] + size}) >= query.squared) return;
-    if (level == 0) return search_cell(query, node);
+    if (level == 0) return search_cell(search, node);
     std::size_t nearer = 0; // bit c: the point is in the upper half along c
     for (std::size_t c = 0; c < 3; ++c)
         if (query.at[c] - low_[c] > static_cast<double>(low[c] + size / 2) * cell_) nearer |= std::size_t{1} << c;
@@ -281,17 +284,19 @@ void SpaceTimeLayer::descend(NearestQuery& query, std::size_t level, const Cell&
     for (std::size_t i = 0; i < 8; ++i) {
         const std::size_t which = i ^ nearer;
         const Cell child{2 * node[0] + (which & 1), 2 * node[1] + (which >> 1 & 1), 2 * node[2] + (which >> 2)};
-        if (child[0] < dims[0] && child[1] < dims[1] && child[2] < dims[2]) descend(query, level - 1, child);
+        if (child[0] < dims[0] && child[1] < dims[1] && child[2] < dims[2]) descend(search, level - 1, child);
     }
 }
 
-void SpaceTimeLayer::search(NearestQuery& query) const
+void SpaceTimeLayer::search(NearestQuery& query, MetTetrahedra& met) const
 {
+    met.start_search();
+    const Search search{query, met};
     if (squared_gap(query.at[3]) >= query.squared || boxes_.empty()) return;
-    if (query.nearest != NearestQuery::nothing) test(query, query.nearest);
+    if (query.nearest != NearestQuery::nothing) test(search, query.nearest);
     if (squared_gap(query.at[3]) >= query.squared) return;
-    if (std::isfinite(query.squared) && search_around(query)) return;
-    descend(query, pyramid_.size() - 1, {0, 0, 0});
+    if (std::isfinite(query.squared) && search_around(search)) return;
+    descend(search, pyramid_.size() - 1, {0, 0, 0});
 }
 
 } // namespace meshreel::metrics

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "meshreel/base/parallel.h"
@@ -40,6 +41,18 @@ struct NearestQuery {
     std::uint32_t nearest = nothing; ///< the tetrahedron that has it; before a search, one that is likely near
 };
 
+/// Which tetrahedra a search has met already: one may lie in many cells.
+class MetTetrahedra {
+public:
+    explicit MetTetrahedra(std::size_t count) : met_(count) {}
+    void start_search() { ++search_; }
+    bool first_time(std::uint32_t tetrahedron) { return std::exchange(met_[tetrahedron], search_) != search_; }
+
+private:
+    std::vector<std::uint32_t> met_; ///< the search that met it last
+    std::uint32_t search_ = 0;
+};
+
 /// The tetrahedra of one interval. Cells are cubes in space, as long in time as the interval.
 class SpaceTimeLayer {
 public:
@@ -49,8 +62,8 @@ public:
 
     /// How far a time is from the interval, squared.
     double squared_gap(double w) const;
-    /// Lowers query.squared and sets query.nearest where this layer has a nearer point. The same for any hint.
-    void search(NearestQuery& query) const;
+    /// Lowers query.squared and sets query.nearest where this layer has a nearer point. met: for fewer than 2^32 searches.
+    void search(NearestQuery& query, MetTetrahedra& met) const;
 
     std::size_t cell_count() const { return dims_[0] * dims_[1] * dims_[2]; }
     std::size_t entry_count() const { return entries_.size(); }
@@ -67,6 +80,10 @@ private:
         std::vector<std::uint8_t> used;
     };
     struct Hyperplane;
+    struct Search {
+        NearestQuery& query;
+        MetTetrahedra& met;
+    };
 
     void find_boxes(Threads threads);
     void choose_cells(double cell);
@@ -77,10 +94,10 @@ private:
     void build_pyramid();
     double squared_to_box(const NearestQuery& query, std::uint32_t tetrahedron) const;
     double squared_to_cells(const NearestQuery& query, const Cell& low, const Cell& high) const;
-    void test(NearestQuery& query, std::uint32_t tetrahedron) const;
-    void search_cell(NearestQuery& query, const Cell& cell) const;
-    bool search_around(NearestQuery& query) const;
-    void descend(NearestQuery& query, std::size_t level, const Cell& node) const;
+    void test(const Search& search, std::uint32_t tetrahedron) const;
+    void search_cell(const Search& search, const Cell& cell) const;
+    bool search_around(const Search& search) const;
+    void descend(const Search& search, std::size_t level, const Cell& node) const;
 
     const MovingSurface& surface_;
     std::size_t interval_;
