@@ -25,6 +25,7 @@ bench:          ## speeds and memory
 	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
 	build-bench/bench/bench_player
 	build-bench/bench/bench_measures
+	build-bench/bench/bench_space_time
 
 bench-effort: build ## the table of docs/effort.md
 	bench/effort.py --write

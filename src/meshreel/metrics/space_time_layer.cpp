@@ -210,22 +210,22 @@ double SpaceTimeLayer::squared_gap(double w) const
     return gap * gap;
 }
 
-double SpaceTimeLayer::squared_to_box(const NearestQuery& query, std::uint32_t tetrahedron) const
+double SpaceTimeLayer::squared_to_box(const Search& search, std::uint32_t tetrahedron) const
 {
     const Box& box = boxes_[tetrahedron];
-    double sum = squared_gap(query.at[3]);
+    double sum = search.squared_gap;
     for (std::size_t c = 0; c < 3; ++c) {
-        const double gap = outside(query.at[c], box[c], box[c + 3]);
+        const double gap = outside(search.query.at[c], box[c], box[c + 3]);
         sum += gap * gap;
     }
     return sum;
 }
 
-double SpaceTimeLayer::squared_to_cells(const NearestQuery& query, const Cell& low, const Cell& high) const
+double SpaceTimeLayer::squared_to_cells(const Search& search, const Cell& low, const Cell& high) const
 {
-    double sum = squared_gap(query.at[3]);
+    double sum = search.squared_gap;
     for (std::size_t c = 0; c < 3; ++c) {
-        const double x = query.at[c] - low_[c];
+        const double x = search.query.at[c] - low_[c];
         const double gap = outside(x, static_cast<double>(low[c]) * cell_, static_cast<double>(high[c]) * cell_);
         sum += gap * gap;
     }
@@ -235,7 +235,7 @@ double SpaceTimeLayer::squared_to_cells(const NearestQuery& query, const Cell& l
 void SpaceTimeLayer::test(const Search& search, std::uint32_t tetrahedron) const
 {
     NearestQuery& query = search.query;
-    if (squared_to_box(query, tetrahedron) >= query.squared || !search.met.first_time(tetrahedron)) return;
+    if (!search.met.first_time(tetrahedron) || squared_to_box(search, tetrahedron) >= query.squared) return;
     const double squared =
         squared_distance_to_tetrahedron(query.at, surface_.corners(interval_, tetrahedron), query.squared);
     if (squared >= query.squared) return;
@@ -253,7 +253,7 @@ void SpaceTimeLayer::search_cell(const Search& search, const Cell& cell) const
 bool SpaceTimeLayer::search_around(const Search& search) const
 {
     const NearestQuery& query = search.query;
-    const double radius = std::sqrt(query.squared - squared_gap(query.at[3])) * (1.0 + 1e-12);
+    const double radius = std::sqrt(query.squared - search.squared_gap) * (1.0 + 1e-12);
     Cell low, high;
     for (std::size_t c = 0; c < 3; ++c) {
         low[c] = cell_of(query.at[c] - radius, c);
@@ -263,7 +263,7 @@ bool SpaceTimeLayer::search_around(const Search& search) const
     for (std::size_t z = low[2]; z < high[2]; ++z)
         for (std::size_t y = low[1]; y < high[1]; ++y)
             for (std::size_t x = low[0]; x < high[0]; ++x)
-                if (squared_to_cells(query, {x, y, z}, {x + 1, y + 1, z + 1}) < query.squared)
+                if (squared_to_cells(search, {x, y, z}, {x + 1, y + 1, z + 1}) < query.squared)
                     search_cell(search, {x, y, z});
     return true;
 }
@@ -275,7 +275,7 @@ void SpaceTimeLayer::descend(const Search& search, std::size_t level, const Cell
     if (here.used[(node[2] * here.dims[1] + node[1]) * here.dims[0] + node[0]] == 0) return;
     const std::size_t size = std::size_t{1} << level;
     const Cell low{node[0] * size, node[1] * size, node[2] * size};
-    if (squared_to_cells(query, low, {low[0] + size, low[1] + size, low[2] + size}) >= query.squared) return;
+    if (squared_to_cells(search, low, {low[0] + size, low[1] + size, low[2] + size}) >= query.squared) return;
     if (level == 0) return search_cell(search, node);
     std::size_t nearer = 0; // bit c: the point is in the upper half along c
     for (std::size_t c = 0; c < 3; ++c)
@@ -290,11 +290,11 @@ void SpaceTimeLayer::descend(const Search& search, std::size_t level, const Cell
 
 void SpaceTimeLayer::search(NearestQuery& query, MetTetrahedra& met) const
 {
+    const Search search{query, met, squared_gap(query.at[3])};
+    if (search.squared_gap >= query.squared || boxes_.empty()) return;
     met.start_search();
-    const Search search{query, met};
-    if (squared_gap(query.at[3]) >= query.squared || boxes_.empty()) return;
     if (query.nearest != NearestQuery::nothing) test(search, query.nearest);
-    if (squared_gap(query.at[3]) >= query.squared) return;
+    if (search.squared_gap >= query.squared) return;
     if (std::isfinite(query.squared) && search_around(search)) return;
     descend(search, pyramid_.size() - 1, {0, 0, 0});
 }

@@ -83,6 +83,7 @@ private:
     struct Search {
         NearestQuery& query;
         MetTetrahedra& met;
+        double squared_gap; ///< in time
     };
 
     void find_boxes(Threads threads);
@@ -92,8 +93,8 @@ private:
     void enter(std::uint32_t tetrahedron, std::vector<Entry>& entries) const;
     void sort_in(const std::vector<std::vector<Entry>>& blocks);
     void build_pyramid();
-    double squared_to_box(const NearestQuery& query, std::uint32_t tetrahedron) const;
-    double squared_to_cells(const NearestQuery& query, const Cell& low, const Cell& high) const;
+    double squared_to_box(const Search& search, std::uint32_t tetrahedron) const;
+    double squared_to_cells(const Search& search, const Cell& low, const Cell& high) const;
     void test(const Search& search, std::uint32_t tetrahedron) const;
     void search_cell(const Search& search, const Cell& cell) const;
     bool search_around(const Search& search) const;

@@ -30,9 +30,28 @@ Point4 less(const Point4& a, double s, const Point4& b)
 
 class TetrahedronProbe {
 public:
-    TetrahedronProbe(const Point4& point, const std::array<Point4, 4>& corners) : point_(point), corners_(corners)
+    TetrahedronProbe(const Point4& point, const std::array<Point4, 4>& corners) : corners_(corners)
     {
-        from_[0] = point - corners[0];
+        for (std::size_t i = 0; i < 4; ++i) {
+            from_[i] = point - corners[i];
+            const double squared = dot(from_[i], from_[i]);
+            if (i > 0 && squared >= best_) continue;
+            best_ = squared;
+            nearest_ = i;
+        }
+    }
+
+    /// Whether all corners are at least so far in the direction of the nearest one: most tetrahedra that are far are.
+    bool behind_plane(double bound) const
+    {
+        double least = best_;
+        for (std::size_t i = 0; i < 4; ++i) least = std::min(least, dot(from_[i], from_[nearest_]));
+        return least > 0.0 && least * least * (1.0 - rounding_slack) >= bound * best_;
+    }
+
+    /// What the tests below need.
+    void prepare()
+    {
         for (std::size_t k = 0; k < 3; ++k) take_edge(k);
         const Point4 &u = edge_[0], &v = edge_[1], &w = edge_[2];
         const double uu = length_[0], vv = length_[1], ww = length_[2];
@@ -64,10 +83,7 @@ public:
 
     double squared()
     {
-        for (std::size_t i = 1; i < 4; ++i) from_[i] = point_ - corners_[i];
         for (std::size_t k = 3; k < 6; ++k) take_edge(k);
-        best_ = std::min(std::min(dot(from_[0], from_[0]), dot(from_[1], from_[1])),
-                         std::min(dot(from_[2], from_[2]), dot(from_[3], from_[3])));
         for (std::size_t k = 0; k < 6; ++k) look_at_edge(k);
         bool on_face = false;
         for (const FaceEdges& face : face_edges)
@@ -135,7 +151,6 @@ private:
         }
     }
 
-    const Point4& point_;
     const std::array<Point4, 4>& corners_;
     std::array<Point4, 4> from_; ///< the point, seen from each corner
     std::array<Point4, 6> edge_;
@@ -143,7 +158,8 @@ private:
     std::array<bool, 6> on_edge_{};
     std::array<double, 6> inverse_; ///< of the Gram matrix of the first three edges, times its determinant, volume_
     double box_, volume_;           ///< the product of its diagonal; its determinant
-    double best_ = 0.0;
+    double best_ = 0.0;             ///< the smallest squared distance found
+    std::size_t nearest_ = 0;       ///< corner
 };
 
 } // namespace
@@ -151,6 +167,8 @@ private:
 double squared_distance_to_tetrahedron(const Point4& point, const std::array<Point4, 4>& corners, double bound)
 {
     TetrahedronProbe probe(point, corners);
+    if (probe.behind_plane(bound)) return bound;
+    probe.prepare();
     return probe.beyond(bound) ? bound : probe.squared();
 }
 
