@@ -209,6 +209,26 @@ TEST(Hausdorff4d, OfNoTrianglesIsInfiniteOrNothingButNeverNaN)
         for (const double x : {d.vertices.rms, d.samples.mean, d.samples.rms, d.upper}) EXPECT_TRUE(std::isfinite(x));
 }
 
+TEST(Hausdorff4d, IsTheSameInHugeAndTinyUnits)
+{
+    const auto scaled = [](Animation a, float by) {
+        for (float& x : a.positions) x *= by;
+        return a;
+    };
+    const Animation a = test_shapes::torus(), b = test_shapes::double_torus();
+    const double usual = distances(a, b).forward.samples.mean;
+    for (const float by : {0x1p-100f, 0x1p100f})
+        EXPECT_NEAR(distances(scaled(a, by), scaled(b, by)).forward.samples.mean, usual, 1e-9 * usual);
+    Animation late = scaled(a, 0x1p120f);
+    for (double& t : late.times_s) t *= 1e12;
+    for (const double alpha : {1e-6, 1e6}) {
+        const Hausdorff4d h = distances(late, b, {.time_constant = alpha});
+        for (const Directed4d& d : {h.forward, h.backward})
+            for (const double x : {d.lower(), d.upper, d.vertices.rms, d.samples.mean, d.samples.rms})
+                EXPECT_FALSE(std::isnan(x));
+    }
+}
+
 TEST(Hausdorff4d, TellsItsProgressFromNothingToAll)
 {
     const Animation a = test_shapes::torus();
