@@ -5,12 +5,12 @@
 #include <cmath>
 #include <random>
 
+#include "meshreel/base/random.h"
 #include "meshreel/mesh/test_shapes.h"
 #include "meshreel/metrics/surface_distance.h"
 
 using namespace meshreel;
-using metrics::squared_distance_to_triangle;
-using metrics::SurfaceDistance;
+using namespace meshreel::metrics;
 
 namespace {
 
@@ -31,6 +31,25 @@ TEST(SurfaceDistance, TakesDegenerateTrianglesForTheSegmentOrPointThatTheyAre)
 {
     EXPECT_DOUBLE_EQ(squared_distance_to_triangle({1, 2, 0}, {{{0, 0, 0}, {4, 0, 0}, {2, 0, 0}}}), 4);
     EXPECT_DOUBLE_EQ(squared_distance_to_triangle({1, 2, 2}, {{{1, 0, 2}, {1, 0, 2}, {1, 0, 2}}}), 4);
+}
+
+TEST(SurfaceDistance, IsNeverMoreThanToAnyPointOfATriangleThoughItBeASliver)
+{
+    Random random(11);
+    for (int i = 0; i < 2000; ++i) {
+        Corners t;
+        for (Point& p : t) p = {random.uniform(), random.uniform(), random.uniform()};
+        const double height = std::pow(10.0, -static_cast<double>(random.below(20)));
+        t[2] =
+            plus(between(t[0], t[1], random.uniform(-1, 2)), times(height, t[2])); // beside the side or its extension
+        const Point p{random.uniform(-1, 2), random.uniform(-1, 2), random.uniform(-1, 2)};
+        const double found = std::sqrt(squared_distance_to_triangle(p, t));
+        for (double u = 0; u <= 1; u += 0.0625)
+            for (double v = 0; u + v <= 1; v += 0.0625) {
+                const Point q = plus(t[0], plus(times(u, minus(t[1], t[0])), times(v, minus(t[2], t[0]))));
+                ASSERT_LE(found, std::sqrt(squared_distance(p, q)) + 1e-14) << height;
+            }
+    }
 }
 
 TEST(SurfaceDistance, FindsTheNearestOfAllTriangles)

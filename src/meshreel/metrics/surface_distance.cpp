@@ -11,8 +11,8 @@ namespace meshreel::metrics {
 
 namespace {
 
-/// Below this sine, squared, of the angle at its first corner a triangle is taken for its three sides.
-constexpr double no_angle = 1e-24;
+/// Below this sine, squared, of the angle at its first corner a triangle is a sliver: its three sides are looked at too.
+constexpr double sliver_angle = 1e-6;
 
 using Node = SurfaceDistance::Node;
 constexpr float far_away = std::numeric_limits<float>::infinity();
@@ -190,11 +190,24 @@ Point nearest_point_of_segment(const Point& p, const Point& a, const Point& b)
     return between(a, b, t / length);
 }
 
-Point nearest_point_of_sides(const Point& p, const Corners& corners)
+/// The point of the triangle that projects to a point of its plane, where that is within.
+///   normal: of the triangle; area: its squared length
+Point nearest_inner_point(const Point& p, const Corners& corners, const Point& normal, double area)
 {
     const auto& [a, b, c] = corners;
-    std::array<Point, 3> points{nearest_point_of_segment(p, a, b), nearest_point_of_segment(p, b, c),
-                                nearest_point_of_segment(p, c, a)};
+    const Point ab = minus(b, a), ac = minus(c, a), ap = minus(p, a);
+    const double v = std::clamp(dot(cross(ap, ac), normal) / area, 0.0, 1.0);
+    const double w = std::clamp(dot(cross(ab, ap), normal) / area, 0.0, 1.0 - v);
+    return plus(a, plus(times(v, ab), times(w, ac)));
+}
+
+/// The regions of a sliver are lost in rounding, but its points are all near its sides.
+Point nearest_point_of_sliver(const Point& p, const Corners& corners, const Point& normal, double area)
+{
+    const auto& [a, b, c] = corners;
+    const std::array<Point, 4> points{nearest_point_of_segment(p, a, b), nearest_point_of_segment(p, b, c),
+                                      nearest_point_of_segment(p, c, a),
+                                      area > 0 ? nearest_inner_point(p, corners, normal, area) : a};
     return *std::ranges::min_element(points, {}, [&](const Point& q) { return squared_distance(p, q); });
 }
 
@@ -213,15 +226,14 @@ Point nearest_point(const Point& p, const Corners& corners)
     const Point cp = minus(p, c);
     const double d5 = dot(ab, cp), d6 = dot(ac, cp);
     if (d6 >= 0 && d5 <= d6) return c;
-    const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6,
-                 of_a = d3 * d6 - d5 * d4; // areas facing the corners
-    const double area = of_a + of_b + of_c;
-    if (area <= no_angle * dot(ab, ab) * dot(ac, ac)) return nearest_point_of_sides(p, corners);
-    if (of_c <= 0 && d1 >= 0 && d3 <= 0) return between(a, b, d1 / (d1 - d3));
-    if (of_b <= 0 && d2 >= 0 && d6 <= 0) return between(a, c, d2 / (d2 - d6));
-    if (of_a <= 0 && d4 >= d3 && d5 >= d6) return between(b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    const double v = std::clamp(of_b / area, 0.0, 1.0), w = std::clamp(of_c / area, 0.0, 1.0 - v);
-    return plus(a, plus(times(v, ab), times(w, ac)));
+    const Point normal = cross(ab, ac);
+    const double area = dot(normal, normal);
+    if (area <= sliver_angle * dot(ab, ab) * dot(ac, ac)) return nearest_point_of_sliver(p, corners, normal, area);
+    if (d1 >= 0 && d3 <= 0 && dot(cross(ab, ap), normal) <= 0) return between(a, b, d1 / (d1 - d3));
+    if (d2 >= 0 && d6 <= 0 && dot(cross(ap, ac), normal) <= 0) return between(a, c, d2 / (d2 - d6));
+    if (d4 >= d3 && d5 >= d6 && dot(cross(bp, cp), normal) <= 0)
+        return between(b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    return nearest_inner_point(p, corners, normal, area);
 }
 
 double squared_distance_to_triangle(const Point& point, const Corners& corners)
