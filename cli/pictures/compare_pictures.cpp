@@ -54,6 +54,15 @@ std::size_t frame_number(const std::string& digits)
     return frame;
 }
 
+/// "units^3" as people write it.
+std::string shown_unit(std::string_view unit)
+{
+    std::string shown(unit);
+    for (const auto& [sign, power] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
+        if (const std::size_t at = shown.find(sign); at != shown.npos) shown.replace(at, 2, power);
+    return shown;
+}
+
 HeatOf heat_of(const std::string& text)
 {
     if (text == "max") return {HeatOf::Kind::largest, 0};
@@ -136,7 +145,7 @@ Status ComparePictures::prepare(const PictureInputs& inputs, const Console& cons
         MESHREEL_CHECK(check_frame(frame_number(strip_frame_), inputs));
     MESHREEL_CHECK(choose_measure(inputs));
     const std::string title = fmt::format("{} ({})", metric_->vertex_title, metric_->name);
-    heat_ = std::make_unique<Heat>(HeatLabel{std::string(metric_->name), title, std::string(metric_->vertex_unit)},
+    heat_ = std::make_unique<Heat>(HeatLabel{std::string(metric_->name), title, shown_unit(metric_->vertex_unit)},
                                    wishes(inputs));
     return Ok{};
 }
@@ -213,6 +222,7 @@ Status ComparePictures::draw(const PictureInputs& inputs, const std::vector<Take
     if (curves_.wanted) MESHREEL_CHECK(draw_curves(inputs, taken));
     if (!heat_) return Ok{};
     Surfaces surfaces{&inputs.original, &inputs.distorted, heat_.get(), range_};
+    surfaces.counterparts = metrics::comparable(inputs.original.still(), inputs.distorted.still()).ok();
     if (!up_.empty()) surfaces.up = up_ == "x" ? Axis::x : up_ == "z" ? Axis::z : Axis::y;
     if (strip_.wanted) MESHREEL_CHECK(draw_strip(surfaces, inputs));
     return heatmap_.wanted ? draw_heatmap(surfaces, inputs, console) : Status(Ok{});
@@ -238,7 +248,7 @@ Status ComparePictures::draw_curves(const PictureInputs& inputs, const std::vect
     for (const Taken& one : taken) {
         if (one.found.per_frame.empty()) continue;
         const metrics::Value& value = one.wanted.metric->values[0];
-        curves.push_back({std::string(value.title), std::string(value.unit), one.found.values[0], one.found.per_frame,
+        curves.push_back({std::string(value.title), shown_unit(value.unit), one.found.values[0], one.found.per_frame,
                           value.better == metrics::Better::more});
     }
     if (curves.empty())

@@ -219,7 +219,7 @@ private:
         svg_ += fmt::format("<circle class=\"mark\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n", x_of(f), y_of(*worst));
         svg_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"worst\" text-anchor=\"end\">{}</text>\n",
                             x_ + panel_wide, y_ - 12,
-                            escaped(fmt::format("worst: {} in frame {}", with_unit(*worst, curve.unit), f)));
+                            escaped(fmt::format("worst: {} in frame {}", with_unit(*worst, ""), f)));
     }
 
     /// One upright stripe a frame, which shows the frame's value under the pointer.

@@ -106,7 +106,7 @@ function setUp() {
       float relief = bare > 0.5 ? 1.0 : 0.45;
       float key = max(0.0, dot(normal, vec3(-0.48, 0.62, 0.62)));
       float light = 1.0 + relief * (0.18 + 0.15 * (1.0 + normal.y) + 0.74 * key - 1.0);
-      float gloss = 0.1 * relief * pow(max(0.0, dot(normal, vec3(-0.27, 0.36, 0.89))), 24.0);
+      float gloss = 0.1 * max(0.0, 2.0 * relief - 1.0) * pow(max(0.0, dot(normal, vec3(-0.27, 0.36, 0.89))), 24.0);
       colour = vec4(pow(light * base + gloss, vec3(1.0 / 2.2)), 1.0);
     }`;
   const program = gl.createProgram();

@@ -92,7 +92,8 @@ Colour shade(const Colour& colour, Vector normal, double relief, const Camera& c
     const double towards = -dot(normal, camera.axes[2]);
     const double key = std::max(0.0, -0.48 * right + 0.62 * above + 0.62 * towards);
     const double light = 1.0 + relief * (0.18 + 0.15 * (1.0 + above) + 0.74 * key - 1.0);
-    const double gloss = 0.10 * relief * std::pow(std::max(0.0, -0.27 * right + 0.36 * above + 0.89 * towards), 24.0);
+    const double shine = 0.10 * std::max(0.0, 2.0 * relief - 1.0); // none where colours are to be read
+    const double gloss = shine * std::pow(std::max(0.0, -0.27 * right + 0.36 * above + 0.89 * towards), 24.0);
     Colour lit{};
     for (std::size_t c = 0; c < 3; ++c) lit[c] = static_cast<float>(light * colour[c] + gloss);
     return lit;

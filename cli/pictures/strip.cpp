@@ -108,12 +108,13 @@ private:
     void draw_captions()
     {
         const Heat& heat = *surfaces_.heat;
+        const std::string unit = heat.label().unit.empty() ? "" : " " + heat.label().unit;
+        const std::string remark = heat.largest() > 0.0
+                                       ? fmt::format("largest of all {} frames {}{}, in frame {}", heat.frame_count(),
+                                                     short_number(heat.largest()), unit, heat.worst_frame())
+                                       : fmt::format("no error in any of {} frames", heat.frame_count());
         write(image_, {18, 40}, heat.label().title, {13.0, black_, 0.16});
-        write(image_, {30 + 13.0 * text_width(heat.label().title), 40},
-              fmt::format("largest of all {} frames {}{}{}, in frame {}", heat.frame_count(),
-                          short_number(heat.largest()), heat.label().unit.empty() ? "" : " ", heat.label().unit,
-                          heat.worst_frame()),
-              {9.0, grey_});
+        write(image_, {30 + 13.0 * text_width(heat.label().title), 40}, remark, {9.0, grey_});
         constexpr std::array names{"original", "distorted", "error"};
         for (std::size_t row = 0; row < rows; ++row)
             write(image_, {18, row_top(row) + 0.5 * panel_height_ + 5}, names[row], {11.0, black_, 0.16});

@@ -20,12 +20,10 @@ struct Surfaces {
     double range = 0.0;         ///< top of the colour scale; 0: from the errors
     Axis up = Axis::unknown;    ///< unknown: as the original says, else y
 
+    bool counterparts = false; ///< vertex i of one is vertex i of the other, in equal triangles and as many frames
+
     /// The errors stand on the distorted surface where its vertices are the original's, else on the original.
-    bool on_distorted() const
-    {
-        return distorted->still().vertex_count == original->still().vertex_count &&
-               distorted->frame_count() == original->frame_count();
-    }
+    bool on_distorted() const { return counterparts; }
     FrameSource& coloured() const { return on_distorted() ? *distorted : *original; }
     Axis upright() const { return up != Axis::unknown ? up : original->still().meta.up; }
     /// The scale asked for, or one that the largest finite error fits.
