@@ -317,7 +317,7 @@ private:
     std::vector<double> percent_;
 };
 
-constexpr Invariance moved_and_scaled{true, false, true, false}; // the unit is a box along the axes
+constexpr Invariance moved_and_scaled{true, false, true, true}; // the unit is a box along the axes
 
 constexpr Value value_4d(std::string_view name, std::string_view title)
 {
