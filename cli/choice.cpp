@@ -125,28 +125,38 @@ bool Choice::names(const Metric& metric, std::size_t value) const
     return names_.empty() ? !metric.slow : std::ranges::any_of(names_, same);
 }
 
+bool Choice::bounds(const Metric& metric) const
+{
+    for (std::size_t i = 0; i < metric.values.size(); ++i)
+        if (bounds(metric, i)) return true;
+    return false;
+}
+
+Result<Taken> Choice::taken(const Metric& metric, bool usual) const
+{
+    MESHREEL_TRY(std::vector<double> parameters, parameters_of(metric, settings_));
+    Taken taken{{&metric, std::move(parameters)}, {}};
+    for (std::size_t i = 0; i < metric.values.size(); ++i)
+        if (usual || names(metric, i) || bounds(metric, i)) taken.shown.push_back(i);
+    return taken;
+}
+
 Result<std::vector<Taken>> Choice::measures(const Animation& original, const Animation& distorted) const
 {
     std::vector<Taken> all;
-    Status why = Ok{};
     const bool any = names_.empty() || std::ranges::find(names_, "all") != names_.end();
+    const Status same = metrics::comparable(original, distorted);
+    const bool surfaces = names_.empty() && !same.ok(); // then those that look at surfaces, slow or not
     for (const Metric& metric : metrics::all()) {
-        MESHREEL_TRY(std::vector<double> parameters, parameters_of(metric, settings_));
-        Taken taken{{&metric, std::move(parameters)}, {}};
-        bool bounded = false;
-        for (std::size_t i = 0; i < metric.values.size(); ++i) {
-            bounded = bounded || bounds(metric, i);
-            if (names(metric, i) || bounds(metric, i)) taken.shown.push_back(i);
-        }
-        if (taken.shown.empty()) continue;
-        Status possible = metrics::comparable(original, distorted, metric.common);
-        if (possible.ok() || !any || bounded)
-            all.push_back(std::move(taken));
-        else if (why.ok())
-            why = std::move(possible);
+        const bool possible = metrics::comparable(original, distorted, metric.common).ok();
+        MESHREEL_TRY(Taken taken, this->taken(metric, surfaces && metric.common == metrics::Common::frames));
+        if (taken.shown.empty() || (any && !possible && !bounds(metric))) continue;
+        all.push_back(std::move(taken));
     }
-    if (all.empty()) return std::move(why).error();
-    return all;
+    if (!all.empty()) return all;
+    Error error = same.error();
+    error.message += "; there are measures that need less in common: --metric all";
+    return error;
 }
 
 void Choice::judge(const std::vector<Taken>& all, Report& report) const

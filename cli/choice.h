@@ -27,7 +27,8 @@ public:
     /// --fail-above and --fail-below.
     void declare_bounds(CLI::App& app);
 
-    /// The measures to take of two animations: those named, or else all but the slow ones that the two allow.
+    /// The measures to take of two animations: those named, or else all but the slow ones; of two
+    /// that have other vertices or triangles, those that look at surfaces.
     /// @fails usage: a parameter that there is not; bad_input: the two have not in common what any of them needs.
     Result<std::vector<Taken>> measures(const Animation& original, const Animation& distorted) const;
 
@@ -37,6 +38,9 @@ public:
 private:
     bool names(const metrics::Metric& metric, std::size_t value) const;
     bool bounds(const metrics::Metric& metric, std::size_t value) const;
+    bool bounds(const metrics::Metric& metric) const;
+    /// The values shown are those named or bounded, or all where the measure is a usual one.
+    Result<Taken> taken(const metrics::Metric& metric, bool usual) const;
 
     std::vector<std::string> names_, settings_, above_, below_;
 };

@@ -86,6 +86,35 @@ TEST_F(Formats, AnimationsOfDifferentSizeAreNotCompared)
     EXPECT_THAT(outcome.err, HasSubstr("frame"));
 }
 
+TEST_F(Formats, AnimationsOfOtherTrianglesAreComparedBySurfacesAndItIsSaid)
+{
+    make_cache();
+    good("generate wave finer.####.obj --vertices 100 --frames 8");
+    const Outcome outcome = good("compare motion.pc2 finer.####.obj --mesh mesh.obj --fps 25 --json");
+    EXPECT_THAT(outcome.err, HasSubstr("the original has 60 vertices, the other 100; only measures that need no"));
+    EXPECT_GT(outcome.json()["metrics"]["hausdorff"], 0.0);
+    EXPECT_FALSE(outcome.json()["metrics"].contains("kg"));
+    const Outcome kg = run("compare motion.pc2 finer.####.obj --mesh mesh.obj --fps 25 --metric kg");
+    EXPECT_EQ(kg.exit_code, 3);
+    EXPECT_THAT(kg.err, HasSubstr("kg needs each vertex' counterpart in the other animation"));
+}
+
+TEST_F(Formats, ParametersOfMeasuresAreSetAndTold)
+{
+    make_cache();
+    good("generate wave other.pc2 --vertices 60 --frames 8 --seed 9");
+    const std::string words = "compare motion.pc2 other.pc2 --mesh mesh.obj --json --metric sted,psnr ";
+    const auto usual = good(words).json(), narrow = good(words + "--set sted.window=2").json();
+    EXPECT_NE(usual["metrics"]["sted_temporal"], narrow["metrics"]["sted_temporal"]);
+    EXPECT_EQ(narrow["values"][1]["parameters"]["window"], 2);
+    EXPECT_EQ(narrow["values"][0]["name"], "psnr");
+    EXPECT_EQ(narrow["values"][0]["better"], "more");
+    EXPECT_EQ(run(words + "--set sted.windw=2").exit_code, 1);
+    EXPECT_EQ(run(words + "--set sted.window=0").exit_code, 1);
+    EXPECT_EQ(run(words + "--fail-below psnr=900").exit_code, 7);
+    EXPECT_EQ(run(words + "--fail-below psnr").exit_code, 1);
+}
+
 TEST_F(Formats, ValidateSaysWhatAFileIs)
 {
     make_cache();
