@@ -15,6 +15,7 @@ std::unique_ptr<Verb> make_compare();
 std::unique_ptr<Verb> make_convert();
 std::unique_ptr<Verb> make_generate();
 std::unique_ptr<Verb> make_picture();
+std::unique_ptr<Verb> make_distort();
 std::unique_ptr<Verb> make_study();
 
 std::span<const VerbRow> verbs()
@@ -29,6 +30,7 @@ std::span<const VerbRow> verbs()
         VerbRow{"convert", "turn an animation from any format into any other", make_convert},
         VerbRow{"generate", "make a sample animation", make_generate},
         VerbRow{"picture", "draw an animation, its decoded self and the error side by side", make_picture},
+        VerbRow{"distort", "make an animation worse in one stated way", make_distort},
         VerbRow{"study", "correlate measures with what people saw", make_study},
     };
     return rows;

@@ -8,17 +8,12 @@
 #include "meshreel/connectivity/topology.h"
 #include "meshreel/container/package.h"
 #include "meshreel/mesh/animation.h"
+#include "meshreel/mesh/surface_part.h"
 
 namespace meshreel {
 
-/// V' vertices and T' triangles, as they are decoded.
-struct Level {
-    std::vector<std::uint32_t> wanted;      ///< [V'] the surface vertex of each
-    std::vector<std::uint32_t> vertex_of;   ///< [V'] its number at level 0, rising
-    std::vector<Triangle> triangles;        ///< [T'] over 0 .. V'-1
-    std::vector<std::uint32_t> triangle_of; ///< [T'] the triangle of level 0 that each came from, rising
-    std::vector<std::uint32_t> corner_of;   ///< [3T'] the corner of level 0 whose values each has
-};
+/// V' vertices and T' triangles, as they are decoded; the whole is level 0.
+using Level = SurfacePart;
 
 /// Refuses a level of a codec that has none. @fails usage.
 Status check_level(const codecs::Codec& codec, std::uint32_t level);
@@ -38,10 +33,5 @@ Result<Level> level_of(const codecs::Codec& codec, const codecs::Coded& first_se
 /// everything besides. One entry for a codec without levels. @fails as the codec does.
 Result<std::vector<std::uint64_t>> level_bytes(const container::StreamReader& file, const container::Header& header,
                                                const codecs::Codec& codec);
-
-/// What is left of an appearance: values of vertices and triangles stay with those that they belong to; a corner has those
-/// of a corner at the same vertex in the chart (mesh/charts.h) of the triangle that its own came from, or, where the vertex is outside
-/// that chart, of that triangle's corner, which is near.
-Appearance appearance_of(const Level& level, const Appearance& appearance);
 
 } // namespace meshreel

@@ -15,6 +15,13 @@ TEST(Exact, SineAndCosineAgreeWithTheMathematicalOnes)
     }
 }
 
+TEST(Exact, LogarithmAgreesWithTheMathematicalOne)
+{
+    for (double x = 1e-300; x < 1e300; x *= 1.37) EXPECT_NEAR(exact::log(x), std::log(x), 1e-12);
+    for (double x = 0.5; x < 3.0; x += 0.001) EXPECT_NEAR(exact::log(x), std::log(x), 1e-13);
+    EXPECT_EQ(exact::log(1.0), 0.0);
+}
+
 TEST(Exact, PowerOfAFractionIsAChainOfSquareRoots)
 {
     EXPECT_EQ(exact::power(2.0, 10.0), 1024.0);

@@ -86,6 +86,11 @@ TEST_F(JsonKeys, OfValidateAreDocumented)
     EXPECT_EQ(keys_of(good("validate a.pc2 --mesh a.obj --json").json()), documented("validate"));
 }
 
+TEST_F(JsonKeys, OfDistortAreDocumented)
+{
+    EXPECT_EQ(keys_of(good("distort a.pc2 --mesh a.obj d.pc2 smooth --amount 2 --json").json()), documented("distort"));
+}
+
 TEST_F(JsonKeys, OfStudyAreDocumented)
 {
     write("scores.csv", "MOS,kg\n1,2\n2,4\n3,3\n");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshreel/base/exact.h"
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -63,6 +64,23 @@ double sin(double x)
 double cos(double x)
 {
     return turned(x, 1);
+}
+
+double log(double x)
+{
+    constexpr double log_2_high = 0x1.62e42fefap-1, log_2_low = 0x1.cf79abc9e3b39p-40; // so that n * high is exact
+    constexpr std::uint64_t fraction = (1ull << 52) - 1, one = 1023ull << 52;
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    auto n = static_cast<double>(static_cast<int>(bits >> 52) - 1023);
+    auto m = std::bit_cast<double>((bits & fraction) | one); // x = m 2^n
+    if (m > 4.0 / 3.0) {
+        m *= 0.5;
+        n += 1.0;
+    }
+    const double t = (m - 1.0) / (m + 1.0), s = t * t; // |t| <= 1/5; log m = 2 (t + t^3 / 3 + t^5 / 5 + ...)
+    double sum = 0.0;
+    for (int k = 19; k >= 1; k -= 2) sum = sum * s + 2.0 / k;
+    return n * log_2_high + (n * log_2_low + t * sum);
 }
 
 double power(double base, double exponent)

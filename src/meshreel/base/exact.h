@@ -8,6 +8,9 @@ namespace meshreel::exact {
 double sin(double x);
 double cos(double x);
 
+/// The natural logarithm of a normal number x > 0; error below 1e-12.
+double log(double x);
+
 /// base^exponent for base > 0 and exponent in multiples of 2^-16, |exponent| < 1024; relative error below 1e-12.
 /// Whole part by squaring, fraction by a chain of square roots.
 double power(double base, double exponent);
