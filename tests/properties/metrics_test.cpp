@@ -68,64 +68,80 @@ std::vector<test_shapes::Named> moving_surfaces()
     return shapes;
 }
 
-class EveryValue : public testing::TestWithParam<metrics::FoundValue> {
+class EveryMetric : public testing::TestWithParam<metrics::Metric> {
 protected:
-    const metrics::Metric& metric() const { return *GetParam().metric; }
-    const metrics::Value& value() const { return metric().values[GetParam().index]; }
-    double measure(const Animation& a, const Animation& b, unsigned threads = 1) const
+    /// One number for each value of the metric.
+    std::vector<double> measure(const Animation& a, const Animation& b, unsigned threads = 1) const
     {
-        return metrics::measure(a, b, metrics::Wanted{&metric()}, {Threads{threads}})->values[GetParam().index];
+        return metrics::measure(a, b, metrics::Wanted{&GetParam()}, {Threads{threads}})->values;
     }
-    void expect_invariant(const Change& change, double tolerance) const
+    void expect_equal(const std::vector<double>& found, const std::string& name) const
+    {
+        for (std::size_t i = 0; i < found.size(); ++i)
+            EXPECT_EQ(found[i], GetParam().values[i].equal) << GetParam().values[i].name << " " << name;
+    }
+    void expect_numbers(const std::vector<double>& found) const
+    {
+        for (std::size_t i = 0; i < found.size(); ++i) EXPECT_FALSE(std::isnan(found[i])) << GetParam().values[i].name;
+    }
+    /// Those values stay that promise to.
+    void expect_invariant(const Change& change, bool metrics::Invariance::*promise, double tolerance) const
     {
         for (const auto& [name, shape] : test_shapes::all()) {
             const Animation original = coarse(shape), distorted = noisy(shape, 0.05);
-            const double before = measure(original, distorted),
-                         after = measure(changed(original, change), changed(distorted, change));
-            EXPECT_TRUE(before == after || std::abs(after / before - 1.0) <= tolerance)
-                << name << ": " << before << ", then " << after;
+            const std::vector<double> before = measure(original, distorted),
+                                      after = measure(changed(original, change), changed(distorted, change));
+            for (std::size_t i = 0; i < before.size(); ++i)
+                EXPECT_TRUE(!(GetParam().values[i].invariance.*promise) || before[i] == after[i] ||
+                            std::abs(after[i] / before[i] - 1.0) <= tolerance)
+                    << GetParam().values[i].name << " " << name << ": " << before[i] << ", then " << after[i];
         }
     }
 };
 
 } // namespace
 
-TEST_P(EveryValue, HasItsPerfectValueForEqualAnimationsExactly)
+TEST_P(EveryMetric, HasItsPerfectValuesForEqualAnimationsExactly)
 {
-    for (const auto& [name, animation] : test_shapes::all())
-        EXPECT_EQ(measure(animation, animation), value().equal) << name;
+    for (const auto& [name, animation] : test_shapes::all()) expect_equal(measure(animation, animation), name);
 }
 
-TEST_P(EveryValue, SeesNoise)
+TEST_P(EveryMetric, SeesNoise)
 {
     for (const auto& [name, animation] : moving_surfaces()) {
-        EXPECT_NE(measure(animation, noisy(animation, 0.05)), value().equal) << name;
-        EXPECT_TRUE(std::isfinite(measure(animation, noisy(animation, 0.05)))) << name;
+        const std::vector<double> found = measure(animation, noisy(animation, 0.05));
+        for (std::size_t i = 0; i < found.size(); ++i)
+            EXPECT_TRUE(std::isfinite(found[i]) && found[i] != GetParam().values[i].equal)
+                << GetParam().values[i].name << " " << name << ": " << found[i];
     }
 }
 
-TEST_P(EveryValue, IsDefinedWithoutTrianglesAndForASingleFrame)
+TEST_P(EveryMetric, IsDefinedWithoutTrianglesAndForASingleFrame)
 {
     for (const Animation& animation : {test_shapes::points_only(), test_shapes::one_frame()})
-        EXPECT_FALSE(std::isnan(measure(animation, noisy(animation, 0.05))));
+        expect_numbers(measure(animation, noisy(animation, 0.05)));
 }
 
-TEST_P(EveryValue, IsWorseForMoreNoise)
+TEST_P(EveryMetric, IsWorseForMoreNoise)
 {
-    const double sign = value().better == metrics::Better::less ? 1.0 : -1.0;
-    for (const auto& [name, animation] : moving_surfaces())
-        EXPECT_GT(sign * measure(animation, noisy(animation, 0.08)), sign * measure(animation, noisy(animation, 0.01)))
-            << name;
+    for (const auto& [name, animation] : moving_surfaces()) {
+        const std::vector<double> much = measure(animation, noisy(animation, 0.08)),
+                                  little = measure(animation, noisy(animation, 0.01));
+        for (std::size_t i = 0; i < much.size(); ++i)
+            EXPECT_TRUE(GetParam().values[i].better == metrics::Better::less ? much[i] > little[i]
+                                                                             : much[i] < little[i])
+                << GetParam().values[i].name << " " << name;
+    }
 }
 
-TEST_P(EveryValue, IsInvariantUnderWhatItPromises)
+TEST_P(EveryMetric, IsInvariantUnderWhatItPromises)
 {
-    if (value().invariance.translation) expect_invariant(shifted, 1e-9);
-    if (value().invariance.scale) expect_invariant(halved, 1e-12);
-    if (value().invariance.rotation) expect_invariant(turned, 1e-4);
+    expect_invariant(shifted, &metrics::Invariance::translation, 1e-9);
+    expect_invariant(halved, &metrics::Invariance::scale, 1e-12);
+    expect_invariant(turned, &metrics::Invariance::rotation, 1e-4);
 }
 
-TEST_P(EveryValue, GivesTheSameForAnyNumberOfThreads)
+TEST_P(EveryMetric, GivesTheSameForAnyNumberOfThreads)
 {
     for (const auto& [name, animation] : test_shapes::all()) {
         const Animation distorted = noisy(animation, 0.05);
@@ -133,15 +149,17 @@ TEST_P(EveryValue, GivesTheSameForAnyNumberOfThreads)
     }
 }
 
-TEST_P(EveryValue, IsFoundByItsName)
+TEST_P(EveryMetric, IsFoundByItsNameAndByThoseOfItsValues)
 {
-    EXPECT_EQ(metrics::find_value(value().name).metric, &metric());
-    EXPECT_EQ(metrics::find_value(value().name).index, GetParam().index);
-    EXPECT_EQ(metrics::find(metric().name), &metric());
-    EXPECT_FALSE(value().title.empty() || value().source.empty() || metric().title.empty());
+    EXPECT_EQ(metrics::find(GetParam().name)->start, GetParam().start);
+    for (std::size_t i = 0; i < GetParam().values.size(); ++i) {
+        const metrics::FoundValue found = metrics::find_value(GetParam().values[i].name);
+        EXPECT_EQ(found.metric, metrics::find(GetParam().name));
+        EXPECT_EQ(found.index, i);
+    }
 }
 
-TEST_P(EveryValue, IsDefinedForASinglePoint)
+TEST_P(EveryMetric, IsDefinedForASinglePoint)
 {
     Animation point;
     point.vertex_count = 1;
@@ -149,20 +167,9 @@ TEST_P(EveryValue, IsDefinedForASinglePoint)
     point.times_s = {0.0, 1.0};
     Animation moved = point;
     moved.positions[3] = 4;
-    EXPECT_EQ(measure(point, point), value().equal);
-    EXPECT_FALSE(std::isnan(measure(point, moved)));
+    expect_equal(measure(point, point), "a point");
+    expect_numbers(measure(point, moved));
 }
-
-std::vector<metrics::FoundValue> every_value()
-{
-    std::vector<metrics::FoundValue> all;
-    for (const metrics::Metric& metric : metrics::all())
-        for (std::size_t i = 0; i < metric.values.size(); ++i) all.push_back({&metric, i});
-    return all;
-}
-
-INSTANTIATE_TEST_SUITE_P(Metrics, EveryValue, testing::ValuesIn(every_value()),
-                         [](const auto& row) { return std::string(row.param.metric->values[row.param.index].name); });
 
 TEST(Metrics, OfAShiftAreKnownInClosedForm)
 {
@@ -227,8 +234,6 @@ TEST(Metrics, ParametersAreSetByNameWithinTheirRange)
         EXPECT_EQ(metrics::set_parameter(sted, "window", wrong, parameters).error().code, ErrorCode::usage);
     EXPECT_EQ(metrics::set_parameter(sted, "windw", 3, parameters).error().code, ErrorCode::usage);
 }
-
-class EveryMetric : public testing::TestWithParam<metrics::Metric> {};
 
 TEST_P(EveryMetric, TellsErrorsOfVerticesAndFramesAsItPromises)
 {
