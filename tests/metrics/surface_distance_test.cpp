@@ -37,7 +37,7 @@ TEST(SurfaceDistance, IsNeverMoreThanToAnyPointOfATriangleThoughItBeASliver)
 {
     Random random(11);
     for (int i = 0; i < 2000; ++i) {
-        Corners t;
+        TriangleCorners t;
         for (Point& p : t) p = {random.uniform(), random.uniform(), random.uniform()};
         const double height = std::pow(10.0, -static_cast<double>(random.below(20)));
         t[2] =

@@ -198,7 +198,7 @@ FrameHausdorff SurfacePair::measure(std::span<const float> original, std::span<c
 
 Metric hausdorff_row()
 {
-    constexpr Invariance but_scale{true, true, false, true};
+    static constexpr Invariance but_scale{true, true, false, true};
     const HausdorffOptions usual;
     static constexpr auto value = [](std::string_view name, std::string_view title, std::string_view source) {
         return Value{name, title, "units", source, 0.0, Better::less, but_scale};

@@ -55,7 +55,7 @@ Point away_from_line(const Point& a, const Point& b, const Point& c)
 ///          /|
 ///     t   / | other        as far from one as from the other
 ///        /  |
-std::optional<CutPlane> plane_between_neighbours(const Corners& t, const Corners& other)
+std::optional<CutPlane> plane_between_neighbours(const TriangleCorners& t, const TriangleCorners& other)
 {
     std::array<std::size_t, 3> twin{3, 3, 3}; // of t's corners
     for (std::size_t i = 0; i < 3; ++i)
@@ -71,7 +71,7 @@ std::optional<CutPlane> plane_between_neighbours(const Corners& t, const Corners
 }
 
 /// The plane half way between the points of two triangles that are nearest to a point.
-CutPlane plane_between_nearest(const Point& point, const Corners& t, const Corners& other)
+CutPlane plane_between_nearest(const Point& point, const TriangleCorners& t, const TriangleCorners& other)
 {
     const Point a = nearest_point(point, t), b = nearest_point(point, other);
     return {between(a, b, 0.5), minus(b, a)};
@@ -155,12 +155,12 @@ private:
         commons_.resize(heap_.size());
         Place nearest = 0;
         for (Place place = 0; place < heap_.size(); ++place) {
-            const Corners corners = from_.tree.corners(place);
+            const TriangleCorners corners = from_.tree.corners(place);
             if (options_.same_triangles)
                 nearest = to_.place_of(from_.tree.triangle_at(place));
             else
                 nearest = corner(times(1.0 / 3, plus(corners[0], plus(corners[1], corners[2]))), nearest).nearest;
-            const Corners common = to_.corners(nearest);
+            const TriangleCorners common = to_.corners(nearest);
             double upper = 0;
             for (const Point& p : corners) upper = std::max(upper, squared_distance_to_triangle(p, common));
             heap_[place] = {upper, place};
@@ -208,7 +208,7 @@ private:
     /// How far the farthest corner is from a triangle; more than `enough` need not be exact.
     double farthest(const Piece& piece, Place t, double enough) const
     {
-        const Corners corners = to_.corners(t);
+        const TriangleCorners corners = to_.corners(t);
         double squared = 0;
         for (std::size_t i = 0; i < piece.count && squared < enough; ++i) {
             const PieceCorner& corner = piece.corners[i];
@@ -233,12 +233,12 @@ private:
     CutPlane plane_for(const Piece& piece) const
     {
         if (piece.depth % cuts_between_halvings == cuts_between_halvings - 1) return plane_across_longest_side(piece);
-        const Corners common = to_.corners(piece.common);
+        const TriangleCorners common = to_.corners(piece.common);
         const auto end = piece.corners.begin() + static_cast<std::ptrdiff_t>(piece.count);
         const auto worst = std::ranges::max_element(piece.corners.begin(), end, {}, [&](const PieceCorner& corner) {
             return squared_distance_to_triangle(corner.point, common);
         });
-        const Corners other = to_.corners(worst->nearest);
+        const TriangleCorners other = to_.corners(worst->nearest);
         const auto plane = plane_between_neighbours(common, other);
         return plane ? *plane : plane_between_nearest(worst->point, common, other);
     }

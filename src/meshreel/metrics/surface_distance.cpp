@@ -192,7 +192,7 @@ Point nearest_point_of_segment(const Point& p, const Point& a, const Point& b)
 
 /// The point of the triangle that projects to a point of its plane, where that is within.
 ///   normal: of the triangle; area: its squared length
-Point nearest_inner_point(const Point& p, const Corners& corners, const Point& normal, double area)
+Point nearest_inner_point(const Point& p, const TriangleCorners& corners, const Point& normal, double area)
 {
     const auto& [a, b, c] = corners;
     const Point ab = minus(b, a), ac = minus(c, a), ap = minus(p, a);
@@ -202,7 +202,7 @@ Point nearest_inner_point(const Point& p, const Corners& corners, const Point& n
 }
 
 /// The regions of a sliver are lost in rounding, but its points are all near its sides.
-Point nearest_point_of_sliver(const Point& p, const Corners& corners, const Point& normal, double area)
+Point nearest_point_of_sliver(const Point& p, const TriangleCorners& corners, const Point& normal, double area)
 {
     const auto& [a, b, c] = corners;
     const std::array<Point, 4> points{nearest_point_of_segment(p, a, b), nearest_point_of_segment(p, b, c),
@@ -214,7 +214,7 @@ Point nearest_point_of_sliver(const Point& p, const Corners& corners, const Poin
 } // namespace
 
 /// By the region of the triangle's plane in which the point lies (Ericson, Real-Time Collision Detection, 5.1.5).
-Point nearest_point(const Point& p, const Corners& corners)
+Point nearest_point(const Point& p, const TriangleCorners& corners)
 {
     const auto& [a, b, c] = corners;
     const Point ab = minus(b, a), ac = minus(c, a), ap = minus(p, a);
@@ -236,7 +236,7 @@ Point nearest_point(const Point& p, const Corners& corners)
     return nearest_inner_point(p, corners, normal, area);
 }
 
-double squared_distance_to_triangle(const Point& point, const Corners& corners)
+double squared_distance_to_triangle(const Point& point, const TriangleCorners& corners)
 {
     return squared_distance(point, nearest_point(point, corners));
 }
@@ -260,7 +260,7 @@ double SurfaceDistance::squared(const Point& point) const
     return empty() ? std::numeric_limits<double>::infinity() : nearest(point).squared;
 }
 
-Corners SurfaceDistance::corners(Place place) const
+TriangleCorners SurfaceDistance::corners(Place place) const
 {
     const std::array<float, 9>& x = corners_[place];
     return {{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}}};

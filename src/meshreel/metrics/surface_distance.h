@@ -12,13 +12,13 @@
 
 namespace meshreel::metrics {
 
-using Corners = std::array<Point, 3>; ///< of a triangle, which may be degenerate
+using TriangleCorners = std::array<Point, 3>; ///< of a triangle, which may be degenerate
 
 /// The point of a triangle that is nearest to a point. @cost some twenty products
-Point nearest_point(const Point& point, const Corners& corners);
+Point nearest_point(const Point& point, const TriangleCorners& corners);
 
 /// Squared distance of a point to a triangle, which may be degenerate; exactly 0 at its corners.
-double squared_distance_to_triangle(const Point& point, const Corners& corners);
+double squared_distance_to_triangle(const Point& point, const TriangleCorners& corners);
 
 /// One frame of a surface, in boxes, so that the nearest of its points is found quickly.
 ///
@@ -52,7 +52,7 @@ public:
 
     Place place_of(std::uint32_t triangle) const { return places_[triangle]; }
     std::uint32_t triangle_at(Place place) const { return triangles_[place]; }
-    Corners corners(Place place) const;
+    TriangleCorners corners(Place place) const;
 
     /// Four children side by side.
     struct Node {

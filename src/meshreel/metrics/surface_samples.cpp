@@ -95,14 +95,14 @@ private:
     double offset_;
 };
 
-Point random_point(const Corners& corners, Random& random)
+Point random_point(const TriangleCorners& corners, Random& random)
 {
     const auto& [a, b, c] = corners;
     const double root = std::sqrt(random.uniform()), along = random.uniform();
     return plus(a, plus(times(root * (1 - along), minus(b, a)), times(root * along, minus(c, a))));
 }
 
-double area_of(const Corners& corners)
+double area_of(const TriangleCorners& corners)
 {
     const auto& [a, b, c] = corners;
     const Point normal = cross(minus(b, a), minus(c, a));
@@ -130,7 +130,7 @@ SampledDistance sample_faces(const SurfaceDistance& from, const SurfaceDistance&
         areas[from.triangle_at(place)] = area_of(from.corners(place));
     const Shares shares(std::move(areas), options);
     return in_runs(from.size(), to, options.threads, [&](Sampler& sampler, std::size_t place) {
-        const Corners corners = from.corners(static_cast<SurfaceDistance::Place>(place));
+        const TriangleCorners corners = from.corners(static_cast<SurfaceDistance::Place>(place));
         shares.for_samples(from.triangle_at(static_cast<SurfaceDistance::Place>(place)),
                            [&](Random& random) { sampler.measure(random_point(corners, random)); });
     });
