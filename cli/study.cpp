@@ -1,6 +1,7 @@
 /// study: how well measures agree with what people saw.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,12 +83,19 @@ Json agreement_json(const Agreement& one)
     return json;
 }
 
+/// Three digits; no sign before 0.000.
+std::string thousandths(double value)
+{
+    return fmt::format("{:6.3f}", std::abs(value) < 0.0005 ? 0.0 : value);
+}
+
 std::string coefficient_text(const metrics::Correlation& correlation)
 {
     if (!correlation.value) return "-";
-    if (!correlation.interval) return fmt::format("{:6.3f}", *correlation.value);
-    return fmt::format("{:6.3f} [{:6.3f}, {:6.3f}]", *correlation.value, correlation.interval->low,
-                       correlation.interval->high);
+    const std::string value = thousandths(*correlation.value);
+    if (!correlation.interval) return value;
+    return fmt::format("{} [{}, {}]", value, thousandths(correlation.interval->low),
+                       thousandths(correlation.interval->high));
 }
 
 /// What a row lacks, once each: "the measure is constant".

@@ -3,10 +3,12 @@
 #include "meshreel/distort/noise.h"
 
 #include <cmath>
+#include <vector>
 
 #include "meshreel/base/exact.h"
 #include "meshreel/base/random.h"
 #include "meshreel/distort/moved.h"
+#include "meshreel/mesh/weld.h"
 
 namespace meshreel::distort {
 
@@ -36,24 +38,34 @@ private:
     double deviation_;
 };
 
+/// One for each vertex, those that are doubled along seams together: no seam opens.
+std::vector<Shift> shifts_of(const Weld& welded, const Request& request, std::uint64_t stream)
+{
+    GaussianShifts source(request, stream);
+    std::vector<Shift> shifts(welded.unique_count());
+    for (Shift& shift : shifts) shift = source.next();
+    return shifts;
+}
+
 } // namespace
 
 Result<Animation> noise_in_vertex_and_frame(const Animation& animation, const Request& request)
 {
+    const Weld welded = weld(animation, request.threads);
     return moved(animation, request.threads, [&](std::size_t f) {
-        return [shifts = GaussianShifts(request, f)](std::size_t, std::span<const float>) mutable {
-            return shifts.next();
+        return [&, shifts = shifts_of(welded, request, f)](std::size_t v, std::span<const float>) {
+            return shifts[welded.unique_of[v]];
         };
     });
 }
 
 Result<Animation> noise_in_vertex(const Animation& animation, const Request& request)
 {
-    GaussianShifts shifts(request, 0);
-    std::vector<Shift> of_vertices(animation.vertex_count);
-    for (Shift& shift : of_vertices) shift = shifts.next();
-    return moved(animation, request.threads,
-                 [&](std::size_t) { return [&](std::size_t v, std::span<const float>) { return of_vertices[v]; }; });
+    const Weld welded = weld(animation, request.threads);
+    const std::vector<Shift> shifts = shifts_of(welded, request, 0);
+    return moved(animation, request.threads, [&](std::size_t) {
+        return [&](std::size_t v, std::span<const float>) { return shifts[welded.unique_of[v]]; };
+    });
 }
 
 Result<Animation> noise_in_frame(const Animation& animation, const Request& request)

@@ -6,7 +6,8 @@
 
 namespace meshreel::distort {
 
-/// request.amount: the deviation of each coordinate, model units. The same bytes for the same seed on every machine.
+/// request.amount: the deviation of each coordinate, model units. Vertices with equal trajectories, as seams have
+/// them, move together. The same bytes for the same seed on every machine.
 /// @source thesis 7.4
 Result<Animation> noise_in_vertex_and_frame(const Animation& animation, const Request& request);
 Result<Animation> noise_in_vertex(const Animation& animation, const Request& request);
