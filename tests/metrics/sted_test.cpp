@@ -5,22 +5,14 @@
 #include "meshreel/base/random.h"
 #include "meshreel/mesh/test_shapes.h"
 #include "meshreel/metrics/sted.h"
+#include "tests/metrics/made.h"
 #include "tests/metrics/reference_vectors.h"
 
 using namespace meshreel;
+using made::points;
 using metrics::StedOptions;
 
 namespace {
-
-Animation points(std::uint32_t count, std::vector<float> positions, std::vector<Triangle> triangles = {})
-{
-    Animation animation;
-    animation.vertex_count = count;
-    animation.times_s = uniform_times(positions.size() / (3ul * count), 25.0);
-    animation.positions = std::move(positions);
-    animation.triangles = std::move(triangles);
-    return animation;
-}
 
 metrics::Sted measure(const Animation& original, const Animation& distorted, const StedOptions& options = {})
 {
