@@ -22,7 +22,7 @@ const other = $("others") ? new Uint16Array(bytesOf("others").buffer) : null;
 // What is on show.
 const largest = Math.max(...tops);
 const worst = tops.indexOf(largest);
-const first = { yaw: -0.52, pitch: 0.4, distance: 2.7, pan: [0, 0] };
+const first = { yaw: 0.52, pitch: 0.4, distance: 2.7, pan: [0, 0] };
 const view = structuredClone(first);
 let k = nearest(worst), playing = false, show = "error", range = [0, meta.top], dirty = true, clock = 0;
 
@@ -240,6 +240,7 @@ function setTheme(theme) { document.documentElement.dataset.theme = theme; dirty
 const toggleTheme = () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
 function reset() { Object.assign(view, structuredClone(first)); setRange(0, meta.top); }
 
+function paint() { dirty = false; drawMesh(); drawCurve(); drawNow(); }
 function tick() {
   if (playing) {
     const last = times[frames[K - 1]] - times[0], step = K > 1 ? last / (K - 1) : 0;
@@ -250,7 +251,7 @@ function tick() {
     while (place + 1 < K && times[frames[place + 1]] - times[0] <= now) ++place;
     if (place !== k) go(place);
   }
-  if (dirty) { dirty = false; drawMesh(); drawCurve(); drawNow(); }
+  if (dirty) paint();
   requestAnimationFrame(tick);
 }
 
@@ -348,6 +349,6 @@ setTheme(wanted.get("theme") || (matchMedia("(prefers-color-scheme: dark)").matc
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (e) => setTheme(e.matches ? "dark" : "light"));
 if (wanted.has("frame")) k = nearest(Number(wanted.get("frame")) || 0);
 setShow(wanted.has("show") && has(wanted.get("show")) ? wanted.get("show") : "error");
-new ResizeObserver(() => (dirty = true)).observe($("stage"));
+new ResizeObserver(paint).observe($("stage")); // at once: what is stretched is never seen
 drawLegend();
 tick();

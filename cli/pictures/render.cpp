@@ -251,7 +251,7 @@ void fit(std::span<Camera> cameras, std::span<const Bounds> bounds, std::size_t 
 
 } // namespace
 
-std::vector<Camera> turntable(std::span<const Pose> poses, const View& first)
+std::vector<Camera> turntable(std::span<const std::vector<Pose>> poses, const View& first)
 {
     const std::size_t count = poses.size();
     std::vector<Camera> cameras;
@@ -259,7 +259,7 @@ std::vector<Camera> turntable(std::span<const Pose> poses, const View& first)
     for (std::size_t i = 0; i < count; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(count);
         cameras.push_back(turned(first.up, first.turn + 2.0 * std::numbers::pi * share));
-        bounds.push_back(projected_bounds(poses.subspan(i, 1), cameras.back()));
+        bounds.push_back(projected_bounds(poses[i], cameras.back()));
     }
     fit(cameras, bounds, first.width);
     return cameras;

@@ -33,9 +33,9 @@ using Pose = std::span<const float>;
 /// height follows from the shape, between half the width and 1.2 of it. @pre poses not empty.
 Camera look_at(std::span<const Pose> poses, const View& view);
 
-/// A camera for each pose, all equal in scale and size; from one to the next the object has turned by the same angle,
-/// once around in all. @pre poses not empty.
-std::vector<Camera> turntable(std::span<const Pose> poses, const View& first);
+/// A camera for each set of poses, which it shows all; the cameras are equal in scale and size, and from one to the next
+/// the object has turned by the same angle, once around in all. @pre no set is empty.
+std::vector<Camera> turntable(std::span<const std::vector<Pose>> poses, const View& first);
 
 /// What is drawn.
 struct Scene {

@@ -9,6 +9,7 @@
 
 #include "cli/pictures/colour_map.h"
 #include "cli/pictures/lettering.h"
+#include "cli/report.h"
 
 namespace meshreel::cli {
 
@@ -58,7 +59,8 @@ private:
 
     void lay_out()
     {
-        std::vector<Pose> poses(original_.begin(), original_.end());
+        std::vector<std::vector<Pose>> poses;
+        for (std::size_t i = 0; i < options_.views; ++i) poses.push_back({original_[i], distorted_[i]});
         cameras_ = turntable(poses, {surfaces_.upright(), 0.0, options_.panel_width * strip_oversampling});
         panel_height_ = static_cast<double>(cameras_[0].height / strip_oversampling);
         const double wide = std::max(480.0, strip_left + static_cast<double>(options_.views) * column_step() + 8.0);
@@ -109,10 +111,11 @@ private:
     {
         const Heat& heat = *surfaces_.heat;
         const std::string unit = heat.label().unit.empty() ? "" : " " + heat.label().unit;
-        const std::string remark = heat.largest() > 0.0
-                                       ? fmt::format("largest of all {} frames {}{}, in frame {}", heat.frame_count(),
-                                                     short_number(heat.largest()), unit, heat.worst_frame())
-                                       : fmt::format("no error in any of {} frames", heat.frame_count());
+        const std::string remark =
+            heat.largest() > 0.0
+                ? fmt::format("largest of {} {}{}, in frame {}", counted(heat.frame_count(), "frame", "frames"),
+                              short_number(heat.largest()), unit, heat.worst_frame())
+                : fmt::format("no error in {}", counted(heat.frame_count(), "frame", "frames"));
         write(image_, {18, 40}, heat.label().title, {13.0, black_, 0.16});
         write(image_, {30 + 13.0 * text_width(heat.label().title), 40}, remark, {9.0, grey_});
         constexpr std::array names{"original", "distorted", "error"};
