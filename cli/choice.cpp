@@ -91,10 +91,12 @@ void Choice::declare(CLI::App& app)
     app.add_option("--metric", names_,
                    "a measure, or one of its values; all: the slow ones too; default: all but those")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(one_of(names))
         ->type_name("NAME");
     app.add_option("--set", settings_, "a parameter of a measure, such as sted.window=3")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->type_name("METRIC.PARAMETER=X");
 }
 
@@ -103,6 +105,7 @@ void Choice::declare_bounds(CLI::App& app)
     const auto add = [&](const char* option, std::vector<std::string>& bounds, const char* help) {
         app.add_option(option, bounds, help)
             ->delimiter(',')
+            ->allow_extra_args(false)
             ->check(bound_on_a_value())
             ->type_name("NAME=X,...")
             ->group("Bounds");
@@ -211,13 +214,21 @@ Json values_json(const std::vector<Taken>& all)
 
 std::string values_text(const std::vector<Taken>& all)
 {
+    std::size_t name_width = 0, title_width = 0, unit_width = 0;
+    const auto for_values = [&](const auto& visit) {
+        for (const Taken& taken : all)
+            for (const std::size_t i : taken.shown) visit(taken.wanted.metric->values[i], taken.found.values[i]);
+    };
+    for_values([&](const metrics::Value& value, double) {
+        name_width = std::max(name_width, value.name.size());
+        title_width = std::max(title_width, value.title.size());
+        unit_width = std::max(unit_width, value.unit.size());
+    });
     std::string text;
-    for (const Taken& taken : all)
-        for (const std::size_t i : taken.shown) {
-            const metrics::Value& value = taken.wanted.metric->values[i];
-            text += fmt::format("  {:<20} {:<28} {:>14.8g} {:<6} {}\n", value.name, value.title, taken.found.values[i],
-                                value.unit, value.source);
-        }
+    for_values([&](const metrics::Value& value, double number) {
+        text += fmt::format("  {:<{}}  {:<{}} {:>14.8g} {:<{}}  {}\n", value.name, name_width, value.title, title_width,
+                            number, value.unit, unit_width, value.source);
+    });
     return text;
 }
 

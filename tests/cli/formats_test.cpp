@@ -94,7 +94,7 @@ TEST_F(Formats, AnimationsOfOtherTrianglesAreComparedBySurfacesAndItIsSaid)
     EXPECT_THAT(outcome.err, HasSubstr("the original has 60 vertices, the other 100; only measures that need no"));
     EXPECT_GT(outcome.json()["metrics"]["hausdorff"], 0.0);
     EXPECT_FALSE(outcome.json()["metrics"].contains("kg"));
-    const Outcome kg = run("compare motion.pc2 finer.####.obj --mesh mesh.obj --fps 25 --metric kg");
+    const Outcome kg = run("compare --metric kg motion.pc2 finer.####.obj --mesh mesh.obj --fps 25");
     EXPECT_EQ(kg.exit_code, 3);
     EXPECT_THAT(kg.err, HasSubstr("kg needs each vertex' counterpart in the other animation"));
 }

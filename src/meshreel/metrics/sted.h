@@ -49,7 +49,8 @@ Sted sted(const Pair<float>& pair, const StedOptions& options = {});
 Sted sted(const Pair<double>& pair, const StedOptions& options = {});
 
 /// Both parts from runs of frames, one after the other: bit for bit those of all frames at once, however they are cut. The
-/// speeds of the last frames are kept, as the window of the next ones looks back at them: 400 bytes a vertex.
+/// speeds of the last frames are kept, as the window of the next ones looks back at them: 300 bytes a vertex; the
+/// spatial part holds four frames of one thread in 600 more.
 class RunningSted {
 public:
     RunningSted(std::uint32_t vertex_count, std::span<const Triangle> triangles, const StedOptions& options = {});
