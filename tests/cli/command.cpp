@@ -56,6 +56,13 @@ void limit(decltype(RLIMIT_AS) what, rlim_t most)
     ::_exit(127);
 }
 
+/// However busy the machine is: a child that has begun to write has long set up how it takes signals.
+void wait_for_a_file(const fs::path& folder)
+{
+    constexpr int milliseconds_at_most = 60'000;
+    for (int waited = 0; fs::is_empty(folder) && waited < milliseconds_at_most; ++waited) ::usleep(1000);
+}
+
 int wait_for(pid_t child)
 {
     int status = 0;
@@ -77,8 +84,8 @@ Outcome run_in(const fs::path& folder, const std::vector<std::string>& arguments
     texts.push_back(nullptr);
     const pid_t child = ::fork();
     if (child == 0) become_the_command(folder, streams, texts, start);
-    if (start.interrupt_after_ms != 0) {
-        ::usleep(start.interrupt_after_ms * 1000);
+    if (start.interrupt_at_first_file) {
+        wait_for_a_file(folder);
         ::kill(child, SIGINT);
     }
     Outcome outcome;

@@ -111,7 +111,8 @@ TEST_F(Files, AMeshThatCannotBeWrittenTakesTheCacheWithIt)
 
 TEST_F(Files, AnInterruptLeavesNoTemporaryFile)
 {
-    const Outcome outcome = run("generate wave a.####.obj --vertices 3000 --frames 2000", {.interrupt_after_ms = 400});
+    const Outcome outcome =
+        run("generate wave a.####.obj --vertices 3000 --frames 2000", {.interrupt_at_first_file = true});
     EXPECT_EQ(outcome.exit_code, 128 + 2);
     EXPECT_TRUE(files().empty()) << files().size();
 }
