@@ -101,7 +101,7 @@ TEST(Search, SaysSoWhenNoStepReachesTheTarget)
     tune::Problem stuck = model.problem();
     stuck.attempt = [](const codecs::Settings& settings) -> Result<tune::Attempt> {
         EXPECT_TRUE(settings.step > 0 && std::isfinite(settings.step));
-        return tune::Attempt{settings, 100.0, 1.0, {}, 3, 1.0};
+        return tune::Attempt{settings, 100.0, 1.0, {}, 3, 1.0, {}};
     };
     const auto best = tune::cheapest(stuck, {.step = 1.0});
     ASSERT_FALSE(best.ok());
@@ -113,7 +113,7 @@ TEST(Search, CrossesAPlateauThatIsJustTooHigh)
     Model model;
     tune::Problem problem = model.problem();
     problem.attempt = [](const codecs::Settings& settings) -> Result<tune::Attempt> {
-        return tune::Attempt{settings, settings.step > 1e-4 ? 1.003 : 0.5, 1.0, {}, 3, 1.0};
+        return tune::Attempt{settings, settings.step > 1e-4 ? 1.003 : 0.5, 1.0, {}, 3, 1.0, {}};
     };
     problem.verify = [](const tune::Attempt& attempt) { return Result<double>(attempt.excess); };
     EXPECT_TRUE(tune::cheapest(problem, {.step = 1.0}).ok());
@@ -125,4 +125,19 @@ TEST(Search, HandsOnTheErrorOfAnAttempt)
     tune::Problem broken = model.problem();
     broken.attempt = [](const codecs::Settings&) -> Result<tune::Attempt> { return bad_input("no good"); };
     EXPECT_EQ(tune::cheapest(broken, {.step = 1.0}).error().message, "no good");
+}
+
+TEST(Search, MendsWhatMissesTheLimitByALittle)
+{
+    Model model;
+    tune::Problem problem = model.problem();
+    problem.verify = [](const tune::Attempt& attempt) { return Result<double>(attempt.excess); };
+    problem.mend = [](tune::Attempt attempt) {
+        attempt.excess = 0.985;
+        return Result<tune::Attempt>(std::move(attempt));
+    };
+    const Result<tune::Attempt> found = tune::cheapest(problem, {.step = 0.01});
+    ASSERT_TRUE(found.ok());
+    EXPECT_LE(found->excess, 1.0);
+    EXPECT_GE(found->excess, 0.97);
 }

@@ -25,10 +25,12 @@ protected:
     /// The trial that a payload makes. basis: as the decoder will see it. code(C): returns the payload, a struct with
     /// fields, `bases` and `step`; given the coefficients C [W x K] in that basis, it leaves what the decoder will see.
     template <class Code>
-    Trial trial_of(Basis basis, Threads threads, const Code& code) const
+    Trial trial_of(Basis basis, const Settings& settings, const Code& code) const
     {
-        linalg::Projection projection = linalg::project(sequence_.frames, basis.mean, basis.rows.view(), threads);
+        linalg::Projection projection =
+            linalg::project(sequence_.frames, basis.mean, basis.rows.view(), settings.threads);
         const Matrix<double> wanted = projection.C;
+        for (const Nudge& nudge : settings.nudges) apply(nudge, basis, projection.C.row(nudge.vertex));
         const auto payload = code(projection.C.view());
         Result<Bytes> bytes = container::write_fields(payload);
         assert(bytes.ok());
@@ -39,6 +41,16 @@ protected:
 
     Sequence sequence_;
     linalg::Pca pca_;
+
+private:
+    /// Not to the first components: in reel all vertices hang on those.
+    static void apply(const Nudge& nudge, const Basis& basis, std::span<double> c)
+    {
+        const std::size_t F = basis.mean.size() / 3;
+        for (std::size_t k = 3; k < c.size(); ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                c[k] += basis.rows(k, axis * F + nudge.frame) * nudge.shift[axis];
+    }
 };
 
 /// Refuses K components that there cannot be, or that do not fit in memory. @fails bad_input at `bases`.

@@ -164,7 +164,7 @@ public:
     Trial encode(const Settings& settings) const override
     {
         CodedBasis coded = code_basis(settings);
-        return trial_of(std::move(coded.basis), settings.threads, [&](MatrixView<double> C) {
+        return trial_of(std::move(coded.basis), settings, [&](MatrixView<double> C) {
             code_coefficients(coded, settings, C);
             coded.head.bits = coded.bits;
             return coded.head;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "meshreel/base/parallel.h"
 
@@ -34,6 +35,12 @@ enum class Entropy : std::uint8_t {
 
 namespace codecs {
 
+/// Has a vertex coded as if it were elsewhere in one frame, so that it comes out nearer to where it is.
+struct Nudge {
+    std::uint32_t vertex = 0, frame = 0; ///< in surface order; of the segment
+    std::array<double, 3> shift{};       ///< model units
+};
+
 /// One point on a codec's rate-distortion surface.
 struct Settings {
     double step = 0.0;                       ///< D, quantisation step of the coefficients, model units; 0: as coarse as
@@ -53,6 +60,7 @@ struct Settings {
     double basis_ratio = 1.0;                ///< beta: Q_m = beta D / sqrt(W), see basis_law; > 0
     BasisCoding basis = BasisCoding::cobra;
     Entropy entropy = Entropy::range;
+    std::vector<Nudge> nudges = {}; ///< vertices that came out too far off in one frame (all codecs over PCA)
     Threads threads = {};
 };
 

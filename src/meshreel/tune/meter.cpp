@@ -3,11 +3,11 @@
 #include "meshreel/tune/meter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "meshreel/mesh/frame_source.h"
 #include "meshreel/metrics/sted.h"
-#include "meshreel/metrics/vertex_error.h"
 
 namespace meshreel::tune {
 
@@ -16,9 +16,47 @@ Meter::Meter(MatrixView<const float> frames, std::span<const Triangle> triangles
 {
 }
 
-double Meter::largest_distance(const codecs::Trajectories& decoded) const
+namespace {
+
+/// Where each vertex has been farthest off.
+class WorstFrames {
+public:
+    explicit WorstFrames(std::size_t vertices) : squares_(vertices, 0.0), nudges_(vertices) {}
+
+    void add(std::size_t frame, std::span<const float> original, std::span<const float> posed)
+    {
+        for (std::size_t v = 0; v < squares_.size(); ++v) {
+            std::array<double, 3> back;
+            double square = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                back[axis] = double{original[3 * v + axis]} - posed[3 * v + axis];
+                square += back[axis] * back[axis];
+            }
+            if (!(square > squares_[v])) continue;
+            squares_[v] = square;
+            nudges_[v] = {static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(frame), back};
+        }
+    }
+    Meter::Distances beyond(double limit) const
+    {
+        Meter::Distances result;
+        for (std::size_t v = 0; v < squares_.size(); ++v) {
+            result.largest = std::max(result.largest, std::sqrt(squares_[v]));
+            if (squares_[v] > limit * limit) result.nudges.push_back(nudges_[v]);
+        }
+        return result;
+    }
+
+private:
+    std::vector<double> squares_;
+    std::vector<codecs::Nudge> nudges_;
+};
+
+} // namespace
+
+Meter::Distances Meter::distances(const codecs::Trajectories& decoded, double limit) const
 {
-    metrics::RunningVertexError error(threads_);
+    WorstFrames worst(frames_.cols / 3);
     const std::size_t run = frames_a_run(static_cast<std::uint32_t>(frames_.cols / 3));
     for (std::size_t first = 0; first < frames_.rows; first += run) {
         std::vector<FrameMix> wanted;
@@ -28,9 +66,9 @@ double Meter::largest_distance(const codecs::Trajectories& decoded) const
         codecs::pose(decoded, {wanted, 0}, posed.view(), threads_);
         Matrix<float> rounded(posed.rows, posed.cols);
         std::ranges::copy(posed.values, rounded.values.begin());
-        error.add({{frames_.row(first).data(), posed.rows, posed.cols}, rounded.view(), {}});
+        for (std::size_t f = 0; f < posed.rows; ++f) worst.add(first + f, frames_.row(first + f), rounded.row(f));
     }
-    return std::sqrt(error.value().largest_square);
+    return worst.beyond(limit);
 }
 
 double Meter::sted(const codecs::Trajectories& decoded) const

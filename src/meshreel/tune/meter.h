@@ -7,6 +7,7 @@
 
 #include "meshreel/base/parallel.h"
 #include "meshreel/base/views.h"
+#include "meshreel/codecs/settings.h"
 #include "meshreel/codecs/trajectories.h"
 #include "meshreel/mesh/animation.h"
 
@@ -18,8 +19,13 @@ public:
     /// frames [F x 3W], of whose vertices the triangles speak.
     Meter(MatrixView<const float> frames, std::span<const Triangle> triangles, Threads threads);
 
-    /// The largest distance of any vertex in any frame, model units. @cost O(F W K).
-    double largest_distance(const codecs::Trajectories& decoded) const;
+    struct Distances {
+        double largest = 0.0; ///< of any vertex in any frame, model units
+        std::vector<codecs::Nudge>
+            nudges; ///< one for each vertex too far off: against what it is off where it is worst
+    };
+    /// limit: what is nearly too far, model units. @cost O(F W K).
+    Distances distances(const codecs::Trajectories& decoded, double limit) const;
 
     /// The spatial part of STED (7.8), nearly: from some of the frames. The temporal part is far below it in practice.
     /// @cost that of 32 frames, or of 2 million points.

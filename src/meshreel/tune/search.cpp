@@ -15,6 +15,7 @@ using codecs::Settings;
 
 constexpr double aimed_excess = 0.992; // what the next attempt aims at
 constexpr double least_excess = 0.97;  // worth verifying, and then good enough
+constexpr double most_mended = 1.5;    // beyond it too many vertices miss the limit
 constexpr double no_bracket = std::numeric_limits<double>::infinity();
 
 /// The excess along the step, everything else being equal: y = log excess over x = log step, turned so that it rises.
@@ -53,8 +54,10 @@ public:
     double next() const
     {
         const double goal = std::log(aimed_excess);
-        const Point near = nearest()[0];
+        Point near = nearest()[0];
         const auto [fine, coarse] = bracket();
+        for (const Point& point : points_) // beyond all that keep the limit, though a finer one came nearer to it
+            if (!std::isfinite(coarse) && point.x > near.x) near = point;
         const double jump = std::clamp((goal - near.y) / slope(), -4.0, 4.0);
         if (!std::isfinite(coarse - fine)) return std::exp(sign_ * within_reach(near.x + boldness() * jump));
         const double x = near.x + jump, margin = 0.05 * (coarse - fine);
@@ -202,6 +205,10 @@ private:
         Landing landing;
         for (int i = 1;; ++i) {
             attempt.excess *= landing.correction;
+            if (problem_.mend && attempt.excess > 1.0 && attempt.excess < most_mended) {
+                MESHREEL_TRY(attempt, problem_.mend(std::move(attempt)));
+                attempt.excess *= landing.correction;
+            }
             if (problem_.rises && landing.holds_first(attempt)) line.restart(); // fewer components have another line
             line.add(attempt);
             Settings settings = attempt.settings;

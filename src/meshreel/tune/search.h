@@ -17,9 +17,10 @@ struct Attempt {
     codecs::Settings settings;
     double excess = 0.0; ///< what is limited over its limit: kept where at most 1; >= 0
     double cost = 0.0;   ///< what should be small: bytes where the error is limited, an error where bytes are; >= 0
-    std::vector<Bytes> payloads; ///< one a segment
-    std::uint32_t bases = 0;     ///< K, of the segment that has most
-    double step = 0.0;           ///< D, model units
+    std::vector<Bytes> payloads;                         ///< one a segment
+    std::uint32_t bases = 0;                             ///< K, of the segment that has most
+    double step = 0.0;                                   ///< D, model units
+    std::vector<std::vector<codecs::Nudge>> nudges = {}; ///< of each segment, for vertices that miss the limit
 };
 
 /// A setting worth varying, and how: up and down by a factor, within a range.
@@ -36,12 +37,13 @@ struct Problem {
     std::vector<Knob> knobs = {}; ///< varied one after another, each for as long as it pays
     int rounds = 1;               ///< how often all of them
     Progress progress = {};
+    std::function<Result<Attempt>(Attempt)> mend = {}; ///< the same settings again, where a few vertices miss the limit
 };
 
 /// The cheapest attempt found that verifies at most 1, and 0.97 or more where any step gives that: first the step by
 /// secants on logarithms, where errors and sizes are nearly linear in it; then the knobs, each new point held against the
 /// best as if both kept the limit exactly; then the step again, until verified. settings.step of `start` is the first
-/// guess. Two to five attempts, two or three more a knob.
+/// guess. Two to five attempts, two or three more a knob; an attempt that misses the limit by a little is mended first.
 /// @fails missed: the limit is not kept at any step tried; whatever attempt or verify fails with.
 Result<Attempt> cheapest(const Problem& problem, const codecs::Settings& start);
 
