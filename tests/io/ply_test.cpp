@@ -143,6 +143,21 @@ TEST(Ply, NamesThatWouldMeetAreKeptApart)
     EXPECT_EQ(read->appearance.find("a_b_")->values, made.appearance.find("a_b")->values);
 }
 
+TEST(Ply, AttributesThatLookLikePartsOfOneStayApart)
+{
+    Animation made = tetrahedron(1);
+    for (const char* name : {"a_0", "a_1",
+                             "gr\xc3\xb6\xc3\x9f"
+                             "e"})
+        made.appearance.attributes.push_back({name, Domain::vertex, Scalar::u8, 1, false, Bytes(4, 7), {}});
+    const auto read = parsed_ply(*write_ply(made, 0, {}));
+    ASSERT_TRUE(read.ok()) << why(read);
+    ASSERT_EQ(read->appearance.attributes.size(), 3u);
+    EXPECT_EQ(read->appearance.attributes[0].name, "a_0");
+    EXPECT_EQ(read->appearance.attributes[1].name, "a_1_");
+    EXPECT_EQ(read->appearance.attributes[2].name, made.appearance.attributes[2].name);
+}
+
 TEST(Ply, TrianglesWithoutAMaterialStayWithoutOne)
 {
     Animation made = tetrahedron(1);

@@ -35,17 +35,22 @@ std::vector<std::string> property_names(const Attribute& attribute)
     std::vector<std::string> names;
     std::string stem = attribute.name.empty() ? "unnamed" : attribute.name;
     std::ranges::replace_if(
-        stem, [](char c) { return c <= ' ' || c == 127 || c == '#'; }, '_');
+        stem, [](unsigned char c) { return c <= ' ' || c == 127 || c == '#'; }, '_');
     for (std::size_t c = 0; c < n; ++c) names.push_back(n == 1 ? stem : concat(stem, "_", c));
     return names;
 }
 
-/// Two properties of one name would not be read back.
-void make_unique(std::vector<PlyValues>& all, std::set<std::string> taken)
+/// Two properties of one name would not be read back, nor would a_1 behind a_0 stay an attribute of its own.
+void keep_apart(std::vector<PlyValues>& all, std::set<std::string> taken)
 {
-    for (PlyValues& columns : all)
+    std::set<std::string> further; // would be read as components of an attribute before
+    for (PlyValues& columns : all) {
+        if (further.contains(columns.names.front())) columns.names.front() += '_';
         for (std::string& name : columns.names)
             while (!taken.insert(name).second) name += '_';
+        const std::string& first = columns.names.front();
+        if (first.ends_with("_0")) further.insert(concat(first.substr(0, first.size() - 1), columns.names.size()));
+    }
 }
 
 std::string_view type_name(Scalar type)
@@ -111,8 +116,8 @@ void PlyWriter::choose()
             seamed_.push_back(&attribute);
         }
     }
-    make_unique(of_vertices_, {"x", "y", "z"});
-    make_unique(of_faces_, {"vertex_indices", "vertex_index", "texcoord"});
+    keep_apart(of_vertices_, {"x", "y", "z"});
+    keep_apart(of_faces_, {"vertex_indices", "vertex_index", "texcoord"});
     for (const auto* table : {&of_vertices_, &of_faces_})
         for (const PlyValues& columns : *table)
             if (!has_none(*columns.attribute) && std::ranges::find(columns.value, no_value) != columns.value.end())
