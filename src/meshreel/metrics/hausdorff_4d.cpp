@@ -20,7 +20,7 @@ constexpr double rounding_part = 0x1p-44;
 const double jung_part = std::sqrt(3.0 / 8.0);
 constexpr std::size_t tetrahedra_a_task = 4096;
 constexpr double most_samples = 100'000'000; ///< an interval: 6 GB
-constexpr double least_samples = 100;        ///< an interval: a mean over fewer says little
+constexpr double fewest_samples = 100;       ///< an interval: a mean over fewer says little
 
 /// Distances with weights, put together in the order they come.
 class SpreadSum {
@@ -203,7 +203,7 @@ private:
         Random random(search_.options.seed + 0x9e3779b97f4a7c15u * (interval + 1));
         const double wanted = std::ceil(search_.options.samples * static_cast<double>(from_.tetrahedra.size() / 3));
         const auto count =
-            wanted > 0.0 ? static_cast<std::uint32_t>(std::clamp(wanted, least_samples, most_samples)) : 0;
+            wanted > 0.0 ? static_cast<std::uint32_t>(std::clamp(wanted, fewest_samples, most_samples)) : 0;
         std::size_t t = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
             const double place = (i + random.uniform()) * (volume / count);
