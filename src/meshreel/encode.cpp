@@ -30,7 +30,8 @@ struct FastWay {
     std::uint32_t growth, neighbours;
 };
 constexpr std::array<FastWay, 5> fast_ways{{{24, 10}, {12, 10}, {8, 12}, {4, 14}, {4, 16}}}; // the fastest first
-constexpr double most_for_fast = 1.09;   // what one may cost at the same step
+constexpr double most_for_fast = 1.09; // what one may cost at the same step
+constexpr std::uint32_t relax_rounds = 10;
 constexpr double nearly_missed = 0.99;   // of the largest error allowed
 constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 
@@ -74,6 +75,7 @@ public:
             !limits_size(),
             plan_.knobs,
             plan_.rounds,
+            relaxes() ? relax_rounds : 0,
             options_.progress,
             [&](tune::Attempt attempt) { return mended(std::move(attempt)); },
         };
@@ -157,6 +159,12 @@ private:
     }
 
     bool limits_distance() const { return options_.quality.max_error || options_.quality.max_error_relative; }
+    /// Whether frames may be drawn towards lengths of edges: not where a vertex could be drawn beyond a limit.
+    bool relaxes() const
+    {
+        return codec_.detail != nullptr && !surface().triangles.empty() && !limits_distance() && !options_.fast_decode;
+    }
+
     bool limits_size() const { return std::isfinite(allowed_.bytes); }
     bool wants_sted() const { return std::isfinite(allowed_.sted) || (limits_size() && tune() == Tune::sted); }
 

@@ -22,8 +22,8 @@ public:
     std::span<const double> singular_values() const override { return pca_.singular_values; }
 
 protected:
-    /// The trial that a payload makes. basis: as the decoder will see it. code(C): returns the payload, a struct with
-    /// fields, `bases` and `step`; given the coefficients C [W x K] in that basis, it leaves what the decoder will see.
+    /// The trial that a payload makes. basis: as the decoder will see it. code(basis, C): returns the payload, a struct
+    /// with fields, `bases` and `step`; given the coefficients C [W x K] in that basis, it leaves what the decoder will see.
     template <class Code>
     Trial trial_of(Basis basis, const Settings& settings, const Code& code) const
     {
@@ -31,7 +31,7 @@ protected:
             linalg::project(sequence_.frames, basis.mean, basis.rows.view(), settings.threads);
         const Matrix<double> wanted = projection.C;
         for (const Nudge& nudge : settings.nudges) apply(nudge, basis, projection.C.row(nudge.vertex));
-        const auto payload = code(projection.C.view());
+        const auto payload = code(basis, projection.C.view());
         Result<Bytes> bytes = container::write_fields(payload);
         assert(bytes.ok());
         const double error =

@@ -72,7 +72,7 @@ public:
     {
         CodedBasis coded = code_basis(settings);
         Bytes residual_bits;
-        return trial_of(std::move(coded.basis), settings, [&](MatrixView<double> C) {
+        return trial_of(std::move(coded.basis), settings, [&](const Basis&, MatrixView<double> C) {
             residual_bits = residuals_->write(coded.payload, C);
             coded.payload.basis_bits = coded.bits;
             coded.payload.residual_bits = residual_bits;

@@ -12,6 +12,7 @@
 #include "meshreel/codecs/entropy.h"
 #include "meshreel/codecs/level_walk.h"
 #include "meshreel/codecs/pose_walk.h"
+#include "meshreel/codecs/relaxation.h"
 #include "meshreel/codecs/surface_walk.h"
 #include "meshreel/container/explain.h"
 
@@ -30,6 +31,7 @@ struct LevelSize {
 };
 
 constexpr std::uint32_t taper_one = 256;
+constexpr std::uint32_t most_relax = 32;
 
 struct ReelPayload {
     std::uint32_t bases = 0;
@@ -37,7 +39,7 @@ struct ReelPayload {
     std::array<float, 3> origin{};
     std::uint32_t taper = 0;
     InterpolationLaw law;
-    std::uint32_t mixed = 1;
+    std::uint32_t mixed = 1, relax = 0;
     std::uint64_t basis_size = 0, first_size = 0;
     std::vector<LevelSize> levels;
     ByteView bits;
@@ -68,6 +70,7 @@ struct ReelPayload {
                   "1: levels are coded under three contexts at once, 0: under the first of them");
         io.varint("neighbours", law.neighbours, {1, Interpolation::most}, "vertices that one is interpolated from");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
+        io.varint("relax", relax, {0, most_relax}, "steps towards edge lengths that hardly vary");
         io.varint("basis_size", basis_size, {0, most_part_bytes}, "bytes of basis_bits");
         io.varint("first_size", first_size, {0, most_part_bytes}, "bytes of first_bits");
         io.list("levels", levels, {1, most_levels}, "levels of detail, the coarsest first");
@@ -164,8 +167,9 @@ public:
     Trial encode(const Settings& settings) const override
     {
         CodedBasis coded = code_basis(settings);
-        return trial_of(std::move(coded.basis), settings, [&](MatrixView<double> C) {
+        return trial_of(std::move(coded.basis), settings, [&](const Basis& basis, MatrixView<double> C) {
             code_coefficients(coded, settings, C);
+            relax(sequence_.surface.triangles, basis, C, {coded.head.relax, settings.threads});
             coded.head.bits = coded.bits;
             return coded.head;
         });
@@ -192,6 +196,7 @@ private:
         coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth,
                           settings.neighbours};
         coded.head.mixed = settings.mixed ? 1 : 0;
+        coded.head.relax = std::min(settings.relax, most_relax);
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);
@@ -341,9 +346,9 @@ Status read_levels(const ReelReader& reader, const Coded& coded, const Interpola
                      at_byte(reader.source.offset));
 }
 
-Result<Trajectories> open_reel(const Coded& coded)
+/// As coded.
+Result<Trajectories> read_trajectories(const ReelReader& reader, const Coded& coded)
 {
-    MESHREEL_TRY(const ReelReader reader, ReelReader::open(coded));
     const std::size_t W = coded.surface.vertex_count;
     Matrix<double> Y(coded.frame_count, 3 * (reader.K + 1));
     Trajectories result{{}, Matrix<double>(W, reader.K)};
@@ -362,6 +367,28 @@ Result<Trajectories> open_reel(const Coded& coded)
                                       coded.threads);
     MESHREEL_CHECK(read_levels(reader, coded, interpolation, {result.C.view(), L.view()}));
     return result;
+}
+
+/// @fails limit: what it takes does not fit in memory beside the trajectories.
+Status relax_decoded(const ReelReader& reader, const Coded& coded, Trajectories& decoded)
+{
+    const bool whole = !coded.wanted || coded.wanted->size() == decoded.C.rows; // a coarser level lacks the edges
+    if (reader.head.relax == 0 || !whole) return Ok{};
+    const std::uint64_t there = 8 * std::uint64_t{decoded.C.values.size() + decoded.basis.rows.values.size()};
+    const std::uint64_t needed = relaxation_bytes(decoded.C.rows, coded.surface.triangles.size(), decoded.C.cols);
+    if (needed + there > coded.limits.max_memory)
+        return bad_input("relaxing does not fit in the memory limit", coded.payload.name + ".relax",
+                         at_byte(coded.payload.offset));
+    relax(coded.surface.triangles, decoded.basis, decoded.C.view(), {reader.head.relax, coded.threads});
+    return Ok{};
+}
+
+Result<Trajectories> open_reel(const Coded& coded)
+{
+    MESHREEL_TRY(const ReelReader reader, ReelReader::open(coded));
+    MESHREEL_TRY(Trajectories decoded, read_trajectories(reader, coded));
+    MESHREEL_CHECK(relax_decoded(reader, coded, decoded));
+    return decoded;
 }
 
 Result<Detail> detail_reel(const Coded& coded)

@@ -128,6 +128,7 @@ public:
         Line line(problem_.rises);
         if (!problem_.knobs.empty()) {
             MESHREEL_TRY(Attempt near, approach(settings, line));
+            MESHREEL_CHECK(try_relaxing(near));
             for (int round = 0; round < problem_.rounds; ++round)
                 for (const Knob& knob : problem_.knobs) MESHREEL_CHECK(descend(near, knob));
             line.restart();
@@ -173,6 +174,18 @@ private:
 
     /// log of what an attempt would cost if it kept the limit exactly.
     double price(const Attempt& attempt) const { return std::log(attempt.cost) + exchange_ * std::log(attempt.excess); }
+
+    /// Decoders have work with it: only where it saves what is worth that.
+    Status try_relaxing(Attempt& best)
+    {
+        constexpr double worth_work = 0.01;
+        if (problem_.relax == 0) return Ok{};
+        Settings settings = best.settings;
+        settings.relax = problem_.relax;
+        MESHREEL_TRY(Attempt attempt, attempted(settings));
+        if (price(attempt) < price(best) - worth_work) best = std::move(attempt);
+        return Ok{};
+    }
 
     /// Moves along a knob for as long as it pays.
     Status descend(Attempt& best, const Knob& knob)

@@ -1,0 +1,154 @@
+/// Relaxation towards edge lengths: nearer to what does not stretch, hardly any change to what does, always defined.
+// SPDX-License-Identifier: MIT
+#include "meshreel/codecs/relaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "meshreel/base/random.h"
+#include "meshreel/codecs/codec.h"
+#include "meshreel/mesh/shapes.h"
+#include "tests/codecs/fixture.h"
+
+using namespace meshreel;
+
+namespace {
+
+/// Trajectories [W x 3F] in a basis that is all of them can be: C holds the coordinates themselves.
+struct Posed {
+    codecs::Basis basis;
+    Matrix<double> C;
+
+    Posed(std::size_t W, std::size_t F) : basis{std::vector<double>(3 * F), Matrix<double>(3 * F, 3 * F)}, C(W, 3 * F)
+    {
+        for (std::size_t i = 0; i < 3 * F; ++i) basis.rows(i, i) = 1.0;
+    }
+    double distance(const Posed& other) const
+    {
+        double sum = 0;
+        for (std::size_t i = 0; i < C.values.size(); ++i) sum += std::pow(C.values[i] - other.C.values[i], 2);
+        return std::sqrt(sum);
+    }
+};
+
+constexpr std::uint32_t columns = 12, rows = 4;
+
+std::vector<Triangle> strip()
+{
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i + 1 < columns; ++i)
+        for (std::uint32_t j = 0; j + 1 < rows; ++j) {
+            const std::uint32_t v = i * rows + j;
+            triangles.push_back({v, v + rows, v + 1});
+            triangles.push_back({v + 1, v + rows, v + rows + 1});
+        }
+    return triangles;
+}
+
+/// A strip rolled up to ever smaller circles while its width is scaled by stretch(frame).
+Posed rolling(std::size_t F, const std::function<double(double)>& stretch)
+{
+    Posed posed(columns * rows, F);
+    for (std::size_t f = 0; f < F; ++f) {
+        const double time = static_cast<double>(f) / static_cast<double>(F), bend = 0.02 + 0.2 * time;
+        for (std::size_t v = 0; v < columns * rows; ++v) {
+            const double angle = bend * static_cast<double>(v / rows);
+            posed.C(v, f) = std::sin(angle) / bend;
+            posed.C(v, F + f) = (1.0 - std::cos(angle)) / bend;
+            posed.C(v, 2 * F + f) = static_cast<double>(v % rows) * stretch(time);
+        }
+    }
+    return posed;
+}
+
+double unstretched(double)
+{
+    return 1.0;
+}
+
+Posed noisy(Posed posed, double size)
+{
+    Random random(7);
+    for (double& c : posed.C.values) c += size * (random.uniform() - 0.5);
+    return posed;
+}
+
+Posed relaxed(Posed posed, std::span<const Triangle> triangles, codecs::RelaxOptions options = {})
+{
+    codecs::relax(triangles, posed.basis, posed.C.view(), options);
+    return posed;
+}
+
+} // namespace
+
+TEST(Relaxation, AStripThatBendsButDoesNotStretchComesNearerToTheTruth)
+{
+    const Posed truth = rolling(40, unstretched), decoded = noisy(truth, 0.05);
+    EXPECT_LT(relaxed(decoded, strip()).distance(truth), 0.85 * decoded.distance(truth));
+}
+
+TEST(Relaxation, MoreRoundsComeNearerStill)
+{
+    const Posed truth = rolling(20, unstretched), decoded = noisy(truth, 0.05);
+    EXPECT_LT(relaxed(decoded, strip(), {8, {1}}).distance(truth), relaxed(decoded, strip(), {1, {1}}).distance(truth));
+}
+
+TEST(Relaxation, EdgesThatStretchFarBeyondTheNoiseAreHardlyMoved)
+{
+    const Posed truth = rolling(40, [](double time) { return 1.0 + 0.5 * time; }), decoded = noisy(truth, 0.01);
+    EXPECT_LT(relaxed(decoded, strip()).distance(truth), 1.05 * decoded.distance(truth));
+}
+
+TEST(Relaxation, TheSameBitsForAnyNumberOfThreads)
+{
+    const Posed decoded = noisy(rolling(301, unstretched), 0.05); // several runs of blocks, the last block not full
+    const Posed one = relaxed(decoded, strip(), {5, {1}});
+    for (unsigned threads : {2u, 5u}) EXPECT_EQ(relaxed(decoded, strip(), {5, {threads}}).C.values, one.C.values);
+}
+
+TEST(Relaxation, NothingChangesWithoutRoundsTrianglesComponentsOrFurtherFrames)
+{
+    const Posed decoded = noisy(rolling(9, unstretched), 0.05), still = noisy(rolling(1, unstretched), 0.05);
+    EXPECT_EQ(relaxed(decoded, strip(), {0, {1}}).C.values, decoded.C.values);
+    EXPECT_EQ(relaxed(decoded, {}).C.values, decoded.C.values);
+    EXPECT_EQ(relaxed(still, strip()).C.values, still.C.values);
+    codecs::Basis mean{std::vector<double>(27), Matrix<double>(0, 27)};
+    Matrix<double> none(columns * rows, 0);
+    codecs::relax(strip(), mean, none.view(), {});
+}
+
+TEST(Relaxation, DegenerateTrianglesAndEdgesWithoutLengthGiveNumbers)
+{
+    Posed decoded = noisy(rolling(9, unstretched), 0.05);
+    std::ranges::copy(decoded.C.row(0), decoded.C.row(1).begin()); // an edge of length 0 in every frame
+    for (std::size_t f = 0; f < 27; ++f) decoded.C(2, f) = f % 2 == 0 ? decoded.C(0, f) : decoded.C(2, f);
+    std::vector<Triangle> triangles = strip();
+    triangles.push_back({3, 3, 3});
+    triangles.push_back({5, 5, 9});
+    for (double c : relaxed(decoded, triangles).C.values) ASSERT_TRUE(std::isfinite(c));
+}
+
+TEST(Relaxation, VerticesWithoutTrianglesStayWhereTheyAre)
+{
+    const Posed decoded = noisy(rolling(9, unstretched), 0.05);
+    std::vector<Triangle> triangles = strip();
+    std::erase_if(triangles, [](const Triangle& t) { return std::ranges::find(t, 0u) != t.end(); });
+    const Posed after = relaxed(decoded, triangles);
+    EXPECT_TRUE(std::ranges::equal(after.C.row(0), decoded.C.row(0)));
+    EXPECT_FALSE(std::ranges::equal(after.C.row(20), decoded.C.row(20)));
+}
+
+TEST(Relaxation, WhatDoesNotFitInTheMemoryLimitIsRefusedAtTheField)
+{
+    const Prepared cloth(*shapes::generate(*shapes::find("cloth"), {.vertices = 400, .frames = 30}));
+    const codecs::Codec& reel = *codecs::find("reel");
+    const Bytes payload =
+        reel.prepare(cloth.sequence(), 9, {1})->encode({.step = 1e-3, .bases = 3, .relax = 4, .threads = {1}}).payload;
+    EXPECT_TRUE(decoded(reel, payload, cloth).ok());
+    const Result<Matrix<float>> refused = decoded(reel, payload, cloth, {.max_memory = 200'000});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().field, "SEGM.relax");
+}
