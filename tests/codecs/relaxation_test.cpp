@@ -109,6 +109,20 @@ TEST(Relaxation, TheSameBitsForAnyNumberOfThreads)
     for (unsigned threads : {2u, 5u}) EXPECT_EQ(relaxed(decoded, strip(), {5, {threads}}).C.values, one.C.values);
 }
 
+TEST(Relaxation, TheSameNumbersOnEveryMachine)
+{
+    Posed flat(columns * rows, 21);
+    for (std::size_t v = 0; v < columns * rows; ++v)
+        for (std::size_t f = 0; f < 21; ++f) {
+            flat.C(v, f) = static_cast<double>(v / rows);
+            flat.C(v, 42 + f) = static_cast<double>(v % rows);
+        }
+    const Posed after = relaxed(noisy(flat, 0.1), strip());
+    double sum = 0;
+    for (std::size_t i = 0; i < after.C.values.size(); ++i) sum += after.C.values[i] * static_cast<double>(i % 7);
+    EXPECT_EQ(sum, 0x1.4aa4b521b00dcp+14);
+}
+
 TEST(Relaxation, NothingChangesWithoutRoundsTrianglesComponentsOrFurtherFrames)
 {
     const Posed decoded = noisy(rolling(9, unstretched), 0.05), still = noisy(rolling(1, unstretched), 0.05);
