@@ -32,8 +32,9 @@ struct FastWay {
 constexpr std::array<FastWay, 5> fast_ways{{{24, 10}, {12, 10}, {8, 12}, {4, 14}, {4, 16}}}; // the fastest first
 constexpr double most_for_fast = 1.09; // what one may cost at the same step
 constexpr std::uint32_t relax_rounds = 10;
-constexpr double nearly_missed = 0.99;   // of the largest error allowed
-constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
+constexpr std::size_t frames_to_relax = 64; // fewer tell little of how an edge's length varies
+constexpr double nearly_missed = 0.99;      // of the largest error allowed
+constexpr std::size_t usual_bases = 256;    // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
 {
@@ -162,7 +163,8 @@ private:
     /// Whether frames may be drawn towards lengths of edges: not where a vertex could be drawn beyond a limit.
     bool relaxes() const
     {
-        return codec_.detail != nullptr && !surface().triangles.empty() && !limits_distance() && !options_.fast_decode;
+        return codec_.detail != nullptr && !surface().triangles.empty() && segments_.longest() >= frames_to_relax &&
+               !limits_distance() && !options_.fast_decode;
     }
 
     bool limits_size() const { return std::isfinite(allowed_.bytes); }
