@@ -98,32 +98,19 @@ void run_source(const bench::Source& source, int repetitions)
                     row.seconds / rows.front().seconds, row.result);
 }
 
-MeasureSettings measure_settings_of(int count, char** words)
-{
-    MeasureSettings settings;
-    for (int i = 1; i + 1 < count; i += 2) {
-        const std::string option = words[i], value = words[i + 1];
-        if (option == "--data")
-            settings.data = value;
-        else if (option == "--only")
-            settings.only = value;
-        else if (option == "-n")
-            settings.repetitions = std::stoi(value);
-        else
-            throw std::runtime_error("unknown option " + option);
-    }
-    return settings;
-}
-
 } // namespace
 
 int main(int count, char** words)
-try {
-    const MeasureSettings settings = measure_settings_of(count, words);
-    for (const bench::Source& source : bench::sources(settings.data, settings.only))
-        run_source(source, settings.repetitions);
-    return 0;
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_measures: %s\n", error.what());
-    return 1;
+{
+    MeasureSettings settings;
+    const bench::Options options{
+        {"--data", [&](const std::string& value) { settings.data = value; }},
+        {"--only", [&](const std::string& value) { settings.only = value; }},
+        {"-n", [&](const std::string& value) { settings.repetitions = std::stoi(value); }},
+    };
+    return bench::program(count, words, options, [&] {
+        for (const bench::Source& source : bench::sources(settings.data, settings.only))
+            run_source(source, settings.repetitions);
+        return 0;
+    });
 }

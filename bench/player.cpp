@@ -110,31 +110,8 @@ void measure_and_print(const Source& source, const PlayerSettings& settings)
     std::fflush(stdout);
 }
 
-PlayerSettings player_settings(int count, char** texts)
+int run_player(const PlayerSettings& settings)
 {
-    PlayerSettings settings;
-    settings.encode.quality.kg = 0.1;
-    settings.encode.segment = one_segment;
-    for (int i = 1; i < count; ++i) {
-        const std::string option = texts[i];
-        const bool more = i + 1 < count;
-        if (option == "--only" && more)
-            settings.only = texts[++i];
-        else if (option == "--data" && more)
-            settings.data = texts[++i];
-        else if (option == "--codec" && more)
-            settings.encode.codec = texts[++i];
-        else if (option == "--kg" && more)
-            settings.encode.quality.kg = std::stod(texts[++i]);
-        else
-            throw std::runtime_error("usage: bench_player [--only NAME] [--codec NAME] [--kg X] [--data FOLDER]");
-    }
-    return settings;
-}
-
-int run_player(int count, char** texts)
-{
-    const PlayerSettings settings = player_settings(count, texts);
     std::printf(
         "codec %s, KG error %g %%, kernel %s; product: [V x K] [K x 3F] in float32 on one core; posing in "
         "percent of its speed;\nopening, on 1 and 2 threads, in products, then for --fast-decode, after what it adds "
@@ -149,12 +126,16 @@ int run_player(int count, char** texts)
 
 } // namespace
 
-int main(int count, char** texts)
+int main(int count, char** words)
 {
-    try {
-        return run_player(count, texts);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
+    PlayerSettings settings;
+    settings.encode.quality.kg = 0.1;
+    settings.encode.segment = one_segment;
+    const bench::Options options{
+        {"--only", [&](const std::string& value) { settings.only = value; }},
+        {"--data", [&](const std::string& value) { settings.data = value; }},
+        {"--codec", [&](const std::string& value) { settings.encode.codec = value; }},
+        {"--kg", [&](const std::string& value) { settings.encode.quality.kg = std::stod(value); }},
+    };
+    return bench::program(count, words, options, [&] { return run_player(settings); });
 }

@@ -178,30 +178,8 @@ void print(const Row& row, std::FILE* csv)
                      row.pca_times, encode_share(row));
 }
 
-Settings settings_of(int count, char** texts)
+int run(const Settings& settings)
 {
-    Settings settings;
-    for (int i = 1; i + 1 < count; i += 2) {
-        const std::string option = texts[i];
-        if (option == "--csv")
-            settings.csv = texts[i + 1];
-        else if (option == "--only")
-            settings.only = texts[i + 1];
-        else if (option == "--data")
-            settings.data = texts[i + 1];
-        else if (option == "--threads")
-            settings.threads.count = static_cast<unsigned>(std::stoul(texts[i + 1]));
-        else
-            throw std::runtime_error("there is no option " + option);
-    }
-    if (count % 2 == 0)
-        throw std::runtime_error("usage: bench_sequences [--only NAME] [--threads N] [--csv FILE] [--data FOLDER]");
-    return settings;
-}
-
-int run(int count, char** texts)
-{
-    const Settings settings = settings_of(count, texts);
     std::FILE* csv = settings.csv.empty() ? nullptr : std::fopen(settings.csv.c_str(), "w");
     if (!settings.csv.empty() && csv == nullptr) throw std::runtime_error("cannot write " + settings.csv);
     const char* head = "sequence,V,F,MB,K,bpfv,encode MB/s,decode MB/s,memcpy MB/s,product MB/s,encode peak MB,"
@@ -218,12 +196,15 @@ int run(int count, char** texts)
 
 } // namespace
 
-int main(int count, char** texts)
+int main(int count, char** words)
 {
-    try {
-        return run(count, texts);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
+    Settings settings;
+    const bench::Options options{
+        {"--csv", [&](const std::string& value) { settings.csv = value; }},
+        {"--only", [&](const std::string& value) { settings.only = value; }},
+        {"--data", [&](const std::string& value) { settings.data = value; }},
+        {"--threads",
+         [&](const std::string& value) { settings.threads.count = static_cast<unsigned>(std::stoul(value)); }},
+    };
+    return bench::program(count, words, options, [&] { return run(settings); });
 }

@@ -34,4 +34,20 @@ std::vector<Source> sources(const std::string& data, const std::string& only)
     return all;
 }
 
+int program(int count, char** words, const Options& options, const std::function<int()>& work)
+{
+    try {
+        for (int i = 1; i < count; i += 2) {
+            const auto found = options.find(words[i]);
+            if (found == options.end()) throw std::runtime_error(std::string("there is no option ") + words[i]);
+            if (i + 1 == count) throw std::runtime_error(std::string("no value for ") + words[i]);
+            found->second(words[i + 1]);
+        }
+        return work();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s: %s\n", words[0], error.what());
+        return 1;
+    }
+}
+
 } // namespace meshreel::bench

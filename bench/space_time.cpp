@@ -108,31 +108,19 @@ void run_sequence(const bench::Source& source, const SpaceTimeSettings& settings
         }
 }
 
-SpaceTimeSettings space_time_settings(int count, char** words)
-{
-    SpaceTimeSettings settings;
-    for (int i = 1; i + 1 < count; i += 2) {
-        const std::string option = words[i], value = words[i + 1];
-        if (option == "--data")
-            settings.data = value;
-        else if (option == "--only")
-            settings.only = value;
-        else if (option == "--threads")
-            settings.threads.count = static_cast<unsigned>(std::stoul(value));
-        else
-            throw std::runtime_error("unknown option " + option);
-    }
-    return settings;
-}
-
 } // namespace
 
 int main(int count, char** words)
-try {
-    const SpaceTimeSettings settings = space_time_settings(count, words);
-    for (const bench::Source& source : bench::sources(settings.data, settings.only)) run_sequence(source, settings);
-    return 0;
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_space_time: %s\n", error.what());
-    return 1;
+{
+    SpaceTimeSettings settings;
+    const bench::Options options{
+        {"--data", [&](const std::string& value) { settings.data = value; }},
+        {"--only", [&](const std::string& value) { settings.only = value; }},
+        {"--threads",
+         [&](const std::string& value) { settings.threads.count = static_cast<unsigned>(std::stoul(value)); }},
+    };
+    return bench::program(count, words, options, [&] {
+        for (const bench::Source& source : bench::sources(settings.data, settings.only)) run_sequence(source, settings);
+        return 0;
+    });
 }

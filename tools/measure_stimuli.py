@@ -12,10 +12,9 @@ import subprocess
 import sys
 
 
-def flat_numbers(metrics):
-    """{"kg": 0.1} or {"sted": {"value": 0.1, ...}} -> {"kg": 0.1}; null (infinite) becomes an empty cell."""
-    values = {name: entry.get("value") if isinstance(entry, dict) else entry for name, entry in metrics.items()}
-    return {name: "" if value is None else repr(value) for name, value in values.items()}
+def cells(metrics):
+    """null (infinite) becomes an empty cell."""
+    return {name: "" if value is None else repr(value) for name, value in metrics.items()}
 
 
 def measure(row, folder, options):
@@ -23,7 +22,7 @@ def measure(row, folder, options):
     done = subprocess.run(command + options.more, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"{row['stimulus']}: {done.stderr.strip()}")
-    return flat_numbers(json.loads(done.stdout)["metrics"])
+    return cells(json.loads(done.stdout)["metrics"])
 
 
 def main():

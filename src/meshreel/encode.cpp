@@ -83,8 +83,9 @@ public:
         codecs::Settings start = common(plan_.start);
         if (limits_distance()) {
             spare_no_vertex(start);
-            // the first knob's gain is below what the largest error varies by chance
-            problem.knobs.erase(problem.knobs.begin(), problem.knobs.begin() + (problem.knobs.empty() ? 0 : 1));
+            // its gain is below what the largest error varies by chance
+            std::erase_if(problem.knobs,
+                          [](const tune::Knob& knob) { return knob.setting == &codecs::Settings::linear; });
         }
         start.step = likely_step(start, segments_.spectra());
         MESHREEL_TRY(start, opening_fast(start));
