@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
+import clip
 import plan
 import runner
 from section import Section, listed, write_csv
@@ -42,6 +43,25 @@ class Plans(unittest.TestCase):
     def test_every_plan_of_the_house_has_rows(self):
         for path in glob.glob(os.path.join(HERE, "plans/*.toml")):
             self.assertTrue(plan.load(path), path)
+
+
+class Clips(unittest.TestCase):
+    def clip(self, folder, *, points, mesh="v 0 0 0\n" * 4 + "f 1 2 3 4\n"):
+        made = clip.Clip("square", os.path.join(folder, "mesh.obj"), os.path.join(folder, "motion.pc2"))
+        with open(made.mesh, "w", encoding="utf-8") as file:
+            file.write(mesh)
+        with open(made.motion, "wb") as file:
+            file.write(clip.PC2_HEADER.pack(clip.PC2_MAGIC, 1, 4, 0.0, 1.0, 3) + b"\0" * 12 * points)
+        return made
+
+    def test_a_clip_knows_its_counts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made = self.clip(folder, points=12)
+            self.assertEqual((made.V, made.F, made.T, made.faces), (4, 3, 2, [(0, 1, 2), (0, 2, 3)]))
+
+    def test_a_point_cache_cut_short_is_an_error(self):
+        with tempfile.TemporaryDirectory() as folder, self.assertRaises(clip.ClipError):
+            self.clip(folder, points=11).V
 
 
 class Sections(unittest.TestCase):
