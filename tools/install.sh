@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs from Debian what is missing and asks nothing: for ./demo; --check: for ./check too; --with-blender: Blender for its tests;
-# --with-meshlab: MeshLab and a screen for it, for its tests and bench; --with-figures: what make figures draws with.
+# --with-meshlab: MeshLab and a screen for it, for its tests and bench; --with-figures: what make figures draws with;
+# --with-peers: what the lab compares meshreel with, from Debian and npm.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 
@@ -11,22 +12,24 @@ packages=(
     libeigen3-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev libzstd-dev libpng-dev
 )
 check_packages=(
-    git libgtest-dev libgmock-dev ccache clang clang-format libclang-rt-14-dev universal-ctags
+    git libgtest-dev libgmock-dev ccache clang clang-format libclang-rt-14-dev universal-ctags python3-numpy
 )
+peer_packages=(draco libdraco-dev libzfp1 libfpzip1 libzstd1 zstd xz-utils python3-numpy)
 gltf_validator=2.0.0-dev.3.10
 
-want_check=no
+want_check=no want_peers=no
 for option in "$@"; do
     case $option in
         --check) want_check=yes; packages+=("${check_packages[@]}") ;;
         --with-blender) packages+=(blender python3-numpy) ;;
         --with-meshlab) packages+=(meshlab xvfb xauth libgl1-mesa-dri) ;;
         --with-figures) packages+=(python3-matplotlib) ;;
-        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-meshlab] [--with-figures]" >&2; exit 1 ;;
+        --with-peers) want_peers=yes; packages+=("${peer_packages[@]}") ;;
+        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-meshlab] [--with-figures] [--with-peers]" >&2; exit 1 ;;
     esac
 done
 # Whoever has a Node of his own keeps it.
-if [ $want_check = yes ]; then
+if [ $want_check = yes ] || [ $want_peers = yes ]; then
     command -v node >/dev/null || packages+=(nodejs)
     command -v npm >/dev/null || packages+=(npm)
 fi
@@ -49,4 +52,8 @@ fi
 if [ $want_check = yes ] && [ ! -d "$root/node_modules/gltf-validator" ]; then
     npm install --prefix "$root" --no-save --no-package-lock --no-audit --no-fund --loglevel=error \
         "gltf-validator@$gltf_validator" >&2
+fi
+
+if [ $want_peers = yes ]; then
+    npm ci --prefix "$root/lab/peers" --no-audit --no-fund --loglevel=error >&2
 fi

@@ -30,6 +30,7 @@ class Peer:
     decode: Callable
     lossless: bool = False
     missing: Callable = field(default=lambda: "")  # why it cannot run here, or ""
+    promise: Callable = None  # promise(clip, setting): no coordinate is off by more; None where a setting promises nothing
 
 
 class Stopwatch:

@@ -34,16 +34,14 @@ def decode_raw(packer, paths, folder):
 
 
 def differences(levels):
-    """Frame 0 from vertex to vertex, every other from the frame before; axis by axis, frame by frame: [3 x F x V]."""
-    levels = levels.transpose(2, 0, 1)
-    first = numpy.diff(levels[:, :1], axis=2, prepend=0)
-    return numpy.concatenate([first, numpy.diff(levels, axis=1)], axis=1)
+    """From frame to frame, and of those from vertex to vertex; axis by axis, frame by frame: [3 x F x V]."""
+    motion = numpy.diff(levels.transpose(2, 0, 1), axis=1, prepend=0)
+    return numpy.diff(motion, axis=2, prepend=0)
 
 
 def levels_from(deltas):
-    deltas = deltas.copy()
-    deltas[:, 0] = numpy.cumsum(deltas[:, 0], axis=1)
-    return numpy.cumsum(deltas, axis=1, dtype=numpy.int32).transpose(1, 2, 0)
+    motion = numpy.cumsum(deltas, axis=2, dtype=numpy.int32)
+    return numpy.cumsum(motion, axis=1, dtype=numpy.int32).transpose(1, 2, 0)
 
 
 def encode_deltas(packer, clip, setting, folder):
@@ -81,7 +79,7 @@ def delta_peer(packer, title):
     return Peer(
         name=f"{packer}-deltas", title=f"{title}, quantised deltas", source=SOURCES[packer],
         counts="differences of quantised positions and of vertex numbers of triangles, in byte planes, packed; the grid",
-        ladder=tuple({"bits": bits} for bits in range(8, 17)),
+        ladder=tuple({"bits": bits} for bits in range(6, 17)), promise=stages.Grid.promise,
         missing=lambda: stages.missing_library("zstd", "libzstd1") if packer == "zstd" else "",
         encode=lambda clip, setting, folder: encode_deltas(packer, clip, setting, folder),
         decode=lambda paths, folder: decode_deltas(packer, paths, folder))

@@ -60,7 +60,8 @@ xz_unpack = lzma.decompress
 
 
 class Grid:
-    """A uniform grid over the box of all frames: 2^bits - 1 steps along its longest side, the same step for every axis."""
+    """A uniform grid over the box of all frames: 2^bits - 1 steps along its longest side, the same step for every axis.
+    Bits need not be whole."""
 
     def __init__(self, origin, step):
         self.origin, self.step = numpy.asarray(origin, dtype=numpy.float64), float(step)
@@ -70,6 +71,12 @@ class Grid:
         flat = positions.reshape(-1, 3)
         low, high = flat.min(axis=0).astype(numpy.float64), flat.max(axis=0).astype(numpy.float64)
         return Grid(low, max(float((high - low).max()), 1e-30) / (2**bits - 1))
+
+    @staticmethod
+    def promise(clip, setting):
+        """Half a step, and what float32 cannot hold."""
+        positions = numpy.asarray(clip.positions)
+        return Grid.around(positions, setting["bits"]).step / 2 + 2**-23 * float(numpy.abs(positions).max())
 
     def levels(self, positions):
         return numpy.rint((positions - self.origin) / self.step).astype(numpy.int32)
@@ -112,9 +119,13 @@ def from_planes(raw, count):
 
 
 def triangle_planes(triangles):
-    """Vertex numbers as differences within their column, in byte planes: what zstd and xz pack best."""
-    return planes(folded(numpy.diff(triangles.T, axis=1, prepend=0)))
+    """Vertex numbers as differences, within a triangle and from triangle to triangle, in byte planes."""
+    deltas = numpy.diff(triangles, axis=1, prepend=0)
+    deltas[:, 0] = numpy.diff(triangles[:, 0], prepend=0)
+    return planes(folded(deltas))
 
 
 def triangles_from_planes(raw, count):
-    return numpy.cumsum(unfolded(from_planes(raw, 3 * count)).reshape(3, count), axis=1).T
+    deltas = unfolded(from_planes(raw, 3 * count)).reshape(count, 3)
+    deltas[:, 0] = numpy.cumsum(deltas[:, 0])
+    return numpy.cumsum(deltas, axis=1)
