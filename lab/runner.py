@@ -8,13 +8,10 @@ import sys
 import tempfile
 import time
 
-
-def digest(*paths):
-    whole = hashlib.sha256()
-    for path in paths:
-        with open(path, "rb") as file:
-            whole.update(file.read())
-    return whole.hexdigest()
+import provenance
+from codings import Command
+from provenance import digest
+from sequences import Sequences
 
 
 def sizes_of_fields(lines):
@@ -33,18 +30,16 @@ class Bench:
     that a run that was interrupted goes on where it was."""
 
     def __init__(self, root, build, data, cache):
-        self.root, self.data, self.cache = root, data, cache
+        self.root, self.cache = root, cache
         self.command, self.lab = os.path.join(build, "meshreel"), os.path.join(build, "meshreel-lab")
         self.programs = digest(self.command, self.lab)
         self.about = json.loads(subprocess.check_output([self.lab, "about"], text=True))
-        self.seconds, self.fresh, self.checksums = 0.0, 0, {}
-
-    def paths(self, sequence):
-        return [os.path.join(self.data, sequence, name) for name in ("motion.pc2", "mesh.obj")]
+        self.sequences = Sequences(Command(self.command), data, os.path.join(cache, "made"))
+        self.seconds, self.fresh = 0.0, 0
 
     def missing(self, row):
         """Why a row cannot be measured here, or nothing."""
-        if not all(os.path.exists(path) for path in self.paths(row.sequence)):
+        if not self.sequences.find(row.sequence, row.made):
             return f"{row.sequence}: its data are not here"
         codec = row.settings.get("codec")
         if codec and codec not in self.about["codecs"]:
@@ -53,13 +48,11 @@ class Bench:
 
     def figures(self, row):
         """What a row gives, measured now or remembered."""
-        motion, mesh = self.paths(row.sequence)
-        if row.sequence not in self.checksums:
-            self.checksums[row.sequence] = digest(motion, mesh)
-        asked = json.dumps([row.measure, row.settings, self.programs, self.checksums[row.sequence]])
+        clip = self.sequences.find(row.sequence, row.made)
+        asked = json.dumps([row.measure, row.settings, self.programs, self.sequences.checksums[row.sequence]])
         kept = os.path.join(self.cache, hashlib.sha256(asked.encode()).hexdigest() + ".json")
         if not os.path.exists(kept):
-            self.measure(row, motion, mesh, kept)
+            self.measure(row, clip.motion, clip.mesh, kept)
         with open(kept, encoding="utf-8") as file:
             known = json.load(file)
         self.seconds += known["seconds"]
@@ -101,9 +94,6 @@ class Bench:
 
     def provenance(self):
         """Lines that say what made the figures."""
-        git = lambda *words: subprocess.check_output(["git", "-C", self.root, *words], text=True).strip()
-        changed = git("status", "--porcelain", "--untracked-files=no", "--", "src", "cli", "lab", "CMakeLists.txt")
-        commit = git("rev-parse", "--short=12", "HEAD") + (" and changes" if changed else "")
-        lines = [f"commit {commit}", f"compiler {self.about['compiler']}, flags{self.about['flags']}",
+        lines = [f"commit {provenance.commit(self.root)}", f"compiler {self.about['compiler']}, flags{self.about['flags']}",
                  f"programs sha256 {self.programs[:16]}"]
-        return lines + [f"{name} sha256 {sum_[:16]}" for name, sum_ in sorted(self.checksums.items())]
+        return lines + [f"{name} sha256 {sum_[:16]}" for name, sum_ in sorted(self.sequences.checksums.items())]

@@ -1,0 +1,116 @@
+"""The codecs of meshreel and the peers behind one face: encode a clip, decode its files, each with its own seconds."""
+# SPDX-License-Identifier: MIT
+import json
+import os
+import shutil
+import subprocess
+from dataclasses import dataclass, field
+
+from provenance import digest
+
+
+class CodingError(Exception):
+    """A coding that gave nothing; the sentence is the program's."""
+
+
+@dataclass
+class Files:
+    """What an encoding left, and what it told."""
+    paths: list
+    seconds: float
+    told: dict = field(default_factory=dict)
+
+    @property
+    def size(self):
+        return sum(os.path.getsize(path) for path in self.paths)
+
+
+def options_of(settings):
+    """Options of the command: {"kg": 0.1, "fast-decode": true} is --kg 0.1 --fast-decode."""
+    words = []
+    for name, value in settings.items():
+        words += [f"--{name}"] if value is True else [] if value is False else [f"--{name}", str(value)]
+    return words
+
+
+class Command:
+    """The meshreel command of one build."""
+
+    def __init__(self, path):
+        self.path, self.identity = path, digest(path)[:16]
+
+    def __call__(self, verb, *words):
+        """What a verb prints as JSON."""
+        done = subprocess.run([self.path, verb, *map(str, words), "--json", "-q", *(() if verb == "compare" else ("-y",))],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            raise CodingError(done.stderr.strip() or f"meshreel {verb}: exit code {done.returncode}")
+        return json.loads(done.stdout)
+
+    def compare(self, clip, decoded, measures, order):
+        """The values asked for, with their titles, units and directions."""
+        found = self("compare", clip.motion, decoded, "--mesh", clip.mesh, "--metric", ",".join(measures), "--order", order)
+        about = {value["name"]: value for value in found["values"]}
+        return {name: {key: about[name][key] for key in ("value", "title", "unit", "better")} for name in measures}
+
+
+class Codec:
+    """A codec of meshreel."""
+    counts = "the whole .reel file"
+    lossless = False
+
+    def __init__(self, command):
+        self.command, self.identity = command, command.identity
+
+    def missing(self):
+        return ""
+
+    def encode(self, clip, point, folder):
+        reel = os.path.join(folder, "x.reel")
+        told = self.command("encode", clip.motion, "--mesh", clip.mesh, reel, *options_of(point))
+        return Files([reel], told["encode_seconds"], {key: told[key] for key in ("bases", "step", "effort", "peak_memory_bytes")})
+
+    def decode(self, files, point, folder):
+        back = os.path.join(folder, "x.pc2")
+        threads = ["--threads", point["threads"]] if "threads" in point else []
+        return back, self.command("decode", *files, back, *threads)["decode_seconds"]
+
+
+class PeerCodec:
+    """A peer of lab/peers."""
+
+    def __init__(self, peer):
+        here = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peers")
+        code = sorted(os.path.join(here, name) for name in os.listdir(here) if name.endswith((".py", ".js", ".mjs", ".json")))
+        self.peer, self.counts, self.lossless = peer, peer.counts, peer.lossless
+        self.missing, self.version = peer.missing, version_of(peer)
+        self.identity = f"{peer.name} {self.version} {digest(*code)[:16]}"
+
+    def encode(self, clip, point, folder):
+        run = self.peer.encode(clip, point, folder)
+        return Files(list(run.files), run.seconds)
+
+    def decode(self, files, _point, folder):
+        back = os.path.join(folder, "back")
+        os.makedirs(back, exist_ok=True)
+        run = self.peer.decode(files, back)
+        return next(path for path in run.files if str(path).endswith(".pc2")), run.seconds
+
+
+def version_of(peer):
+    """The peer's package, and what the command that its source names in brackets says of the version."""
+    package, _, asked = peer.source.partition("(")
+    words = asked.split(")")[0].split()
+    if not words or not shutil.which(words[0]):
+        return peer.source
+    said = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout.strip()
+    return f"{package.strip()}, {said.splitlines()[0].strip(' *')}" if said else peer.source
+
+
+def peers_here():
+    """All peers; none where numpy or the peers are not installed."""
+    try:
+        from peers import registry
+    except ImportError:
+        return ()
+    return registry.PEERS

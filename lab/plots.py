@@ -1,0 +1,68 @@
+"""Draws the curves of a plan as SVG: rate against each error, speed against rate; a panel a sequence."""
+# SPDX-License-Identifier: MIT
+import math
+import os
+
+from draw import COLOURS, STYLE, pyplot
+from matplotlib import rc_context, ticker
+
+MARKERS = "osD^vPX*<>ph"
+PALETTE = [*COLOURS[1:], "#7f3b08", "#542788", "#1b7837", "#b2182b", "#878787", "#4d4d4d"]
+ACROSS = 3
+
+
+def styles(codings):
+    """{name: colour, marker}; our own codecs' lines are whole, the peers' dashed."""
+    return {coding.name: {"color": PALETTE[i % len(PALETTE)], "marker": MARKERS[i % len(MARKERS)],
+                          "linestyle": "--" if coding.peer else "-"} for i, coding in enumerate(codings)}
+
+
+def plain(axis):
+    axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+    axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def panels_of(sequences):
+    down = math.ceil(len(sequences) / ACROSS)
+    across = min(ACROSS, len(sequences))
+    figure, panels = pyplot.subplots(down, across, figsize=(0.4 + 3.6 * across, 0.9 + 3.0 * down), squeeze=False)
+    for panel in panels.flat[len(sequences):]:
+        panel.set_visible(False)
+    return figure, dict(zip(sequences, panels.flat))
+
+
+def chart(rows, looks, x, y):
+    """One panel a sequence; x and y: key of a row and its title. Both axes are logarithmic."""
+    figure, panels = panels_of(list(dict.fromkeys(row["sequence"] for row in rows)))
+    for sequence, panel in panels.items():
+        for name, look in looks.items():
+            points = sorted((row[x[0]], row[y[0]]) for row in rows
+                            if (row["sequence"], row["coding"]) == (sequence, name) and row[x[0]] > 0 and row[y[0]] > 0)
+            if points:
+                panel.plot(*zip(*points), label=name, markersize=4, linewidth=1.3, **look)
+        panel.set(title=sequence, xscale="log", yscale="log", xlabel=x[1], ylabel=y[1])
+        plain(panel.xaxis)
+        plain(panel.yaxis)
+        panel.tick_params(axis="x", labelrotation=45, labelsize=8)
+    handles = {label: handle for panel in panels.values() for handle, label in zip(*panel.get_legend_handles_labels())}
+    columns = min(4, len(handles))
+    height = figure.get_size_inches()[1]
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=columns, fontsize=9)
+    figure.tight_layout(rect=(0, (0.15 + 0.2 * math.ceil(len(handles) / columns)) / height, 1, 1))
+    return figure
+
+
+def draw_all(folder, curves, outcome):
+    os.makedirs(folder, exist_ok=True)
+    rate, looks = ("bpfv", "bits per frame and vertex"), styles(curves.codings)
+    wanted = {name: (rate, (name, f"{about['title']}, {about['unit']}".rstrip(", "))) for name, about in outcome.about.items()}
+    wanted |= {"decoding": (rate, ("decode_mvs", "decoding, M vertices/s")), "encoding": (rate, ("encode_mvs", "encoding, M vertices/s"))}
+    paths = []
+    for name, (x, y) in wanted.items():
+        with rc_context(STYLE):
+            figure = chart(outcome.rows, looks, x, y)
+            paths.append(os.path.join(folder, f"{curves.name}-{name}.svg"))
+            figure.savefig(paths[-1], facecolor="white", metadata={"Date": None})
+            pyplot.close(figure)
+    return paths
