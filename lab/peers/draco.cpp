@@ -1,5 +1,5 @@
 /// Draco as a peer: a mesh and so many frames of integer positions as attributes of one .drc file, and back in the order they came in.
-/// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: MIT
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
