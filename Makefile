@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz bench bench-effort bench-plan bench-rate bench-scale bench-search bench-surfaces figures format docs clean
+.PHONY: build demo check test fuzz bench bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -29,6 +29,9 @@ bench:          ## speeds and memory
 
 bench-effort: build ## the table of docs/effort.md
 	bench/effort.py --write
+
+bench-ledger: build ## exact sizes beside lab/ledger.csv; REASON="why they change" renews it
+	lab/ledger.py $(if $(REASON),--renew --reason "$(REASON)")
 
 bench-plan: build   ## everyone side by side: make bench-plan PLAN=lab/plans/codecs.toml; docs/lab.md; KEEP=1 renews lab/results
 	tools/install.sh --with-figures

@@ -81,7 +81,7 @@ class PeerCodec:
 
     def __init__(self, peer):
         here = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peers")
-        code = sorted(os.path.join(here, name) for name in os.listdir(here) if name.endswith((".py", ".js", ".mjs", ".json")))
+        code = sorted(os.path.join(here, name) for name in os.listdir(here) if name.endswith((".py", ".js", ".mjs", ".json", ".cpp")))
         self.peer, self.counts, self.lossless = peer, peer.counts, peer.lossless
         self.missing, self.version = peer.missing, version_of(peer)
         self.identity = f"{peer.name} {self.version} {digest(*code)[:16]}"

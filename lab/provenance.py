@@ -26,26 +26,44 @@ def commit(root):
         return "unknown"
 
 
-def build(folder):
-    """Compiler and flags of a CMake build folder."""
+def cache_of(folder):
+    """The settings of a CMake build folder."""
     known = {}
     with open(os.path.join(folder, "CMakeCache.txt"), encoding="utf-8") as file:
         for line in file:
             name, _, value = line.strip().partition("=")
             known[name.split(":")[0]] = value
-    kind, compiler = known.get("CMAKE_BUILD_TYPE", ""), known.get("CMAKE_CXX_COMPILER", "c++")
-    said = subprocess.run([compiler, "--version"], stdout=subprocess.PIPE, text=True).stdout.splitlines()[:1]
+    return known
+
+
+def compiler(known):
+    path = known.get("CMAKE_CXX_COMPILER", "c++")
+    said = subprocess.run([path, "--version"], stdout=subprocess.PIPE, text=True).stdout.splitlines()[:1]
+    return (said or [path])[0]
+
+
+def build(folder):
+    """Compiler and flags of a CMake build folder."""
+    known = cache_of(folder)
+    kind = known.get("CMAKE_BUILD_TYPE", "")
     flags = f"{known.get('CMAKE_CXX_FLAGS', '')} {known.get(f'CMAKE_CXX_FLAGS_{kind.upper()}', '')}".strip()
-    return f"{(said or [compiler])[0]}, {kind}, {flags}"
+    return f"{compiler(known)}, {kind}, {flags}"
+
+
+def processor():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    return "unknown processor"
+
+
+def encoder(folder):
+    """What an encoder's rounding may depend on: compiler, C library, processor."""
+    return f"{compiler(cache_of(folder))}; {os.confstr('CS_GNU_LIBC_VERSION')}; {processor()}"
 
 
 def machine():
     """Processor, cores, memory, kernel."""
-    model = "unknown processor"
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        for line in file:
-            if line.startswith("model name"):
-                model = line.split(":", 1)[1].strip()
-                break
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    return f"{model}, {os.cpu_count()} cores, {memory:.0f} GB, Linux {os.uname().release}"
+    return f"{processor()}, {os.cpu_count()} cores, {memory:.0f} GB, Linux {os.uname().release}"
