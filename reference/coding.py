@@ -3,6 +3,7 @@
 SPDX-License-Identifier: MIT
 """
 
+import math
 from functools import lru_cache
 from math import floor
 
@@ -282,3 +283,43 @@ def varint(data, place, at, field):
                 break
             return value, i + 1
     raise Damaged(at + place, field, "no varint, cut off, too long or too large")
+
+
+def octave_column(fineness, quantity, columns):
+    if not quantity >= 2.0**-6:
+        return 0
+    if quantity == math.inf:
+        return columns - 1
+    mantissa, exponent = math.frexp(quantity)
+    y = (exponent - 1 + 6) * 2**fineness + floor((2 * mantissa - 1) * 2**fineness)
+    return min(columns - 1, 1 + y)
+
+
+class MixedLevels:
+    """Levels under several contexts at once."""
+
+    def __init__(self, decoder, contexts):
+        self.decoder, self.contexts = decoder, contexts
+        self.models, self.mixers = Models(), Mixers(contexts)
+
+    def mixed(self, places, judge, *decision):
+        models = [self.models[(i, place) + decision] for i, place in enumerate(places[:self.contexts])]
+        if self.contexts == 1:
+            return self.decoder.decide(models[0])
+        mixer = (min(decision[1], 8),) if decision[0] == "longer" else ()
+        return mixed(self.decoder, models, self.mixers[(judge, decision[0]) + mixer])
+
+    def level(self, places, judge):
+        if not self.mixed(places, judge, "not zero"):
+            return 0
+        negative, n, m = self.decoder.decide(self.models["negative"]), 1, 1
+        while n < 31 and self.mixed(places, judge, "longer", min(n, 16)):
+            n += 1
+        if n > 1:
+            m = 2 * m + self.mixed(places, judge, "first", min(n, 16))
+        if n > 2:
+            m = 2 * m + self.mixed(places, judge, "second", min(n, 16), m & 1)
+        if n > 3:
+            m = m << n - 3 | self.decoder.raw(n - 3)
+        m = min(m, (1 << 31) - 1)
+        return -m if negative else m

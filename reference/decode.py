@@ -9,6 +9,7 @@ import numpy
 
 import container
 import pca
+import reel
 
 
 def frames(file):
@@ -18,6 +19,8 @@ def frames(file):
         fields = container.Fields(payload, at, "SEGM")
         if file.codec in ("coddyac", "na", "lsp", "rbfp"):
             posed = pca.frames_of(*pca.open_payload(fields, file.codec, file.topology, count))
+        elif file.codec == "reel":
+            posed = pca.frames_of(*reel.open_payload(fields, file.topology, count))
         else:
             raise container.Damaged(21, "HEAD.codec", f"{file.codec!r} is not known")
         parts.append(posed.astype(numpy.float32))
