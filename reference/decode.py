@@ -8,22 +8,32 @@ import sys
 import numpy
 
 import container
+import lossless
 import pca
 import reel
+
+
+def posed(codec, fields, topology, count):
+    """Positions of a segment's surface vertices, [F, W, 3] in float64, before they are rounded."""
+    if codec == "lossless":
+        return lossless.frames_of(fields, topology, count, lambda name, part: guessed(name, part, topology, count))
+    return guessed(codec, fields, topology, count)
+
+
+def guessed(codec, fields, topology, count):
+    if codec == "reel":
+        return pca.frames_of(*reel.open_payload(fields, topology, count))
+    if codec == "coddyac" or codec in pca.PREDICTORS:
+        return pca.frames_of(*pca.open_payload(fields, codec, topology, count))
+    return fields.refuse("codec", f"{codec!r} is no codec that this reader knows")
 
 
 def frames(file):
     """Positions [F, V, 3] in float32."""
     parts = []
-    for first, count, payload, at in file.segments:
+    for _, count, payload, at in file.segments:
         fields = container.Fields(payload, at, "SEGM")
-        if file.codec in ("coddyac", "na", "lsp", "rbfp"):
-            posed = pca.frames_of(*pca.open_payload(fields, file.codec, file.topology, count))
-        elif file.codec == "reel":
-            posed = pca.frames_of(*reel.open_payload(fields, file.topology, count))
-        else:
-            raise container.Damaged(21, "HEAD.codec", f"{file.codec!r} is not known")
-        parts.append(posed.astype(numpy.float32))
+        parts.append(posed(file.codec, fields, file.topology, count).astype(numpy.float32))
     return numpy.concatenate(parts)[:, file.topology.surface_of, :]
 
 
