@@ -1,9 +1,7 @@
-"""decode.py FILE: what a .reel file holds, as docs/format.md says it.
+"""The frames of a .reel file, as docs/format.md says it.
 
 SPDX-License-Identifier: MIT
 """
-
-import sys
 
 import numpy
 
@@ -35,10 +33,3 @@ def frames(file):
         fields = container.Fields(payload, at, "SEGM")
         parts.append(posed(file.codec, fields, file.topology, count).astype(numpy.float32))
     return numpy.concatenate(parts)[:, file.topology.surface_of, :]
-
-
-if __name__ == "__main__":
-    with open(sys.argv[1], "rb") as stream:
-        file = container.read(stream.read())
-    positions = frames(file)
-    print(f"{container.hash_of(positions.astype('<f4').tobytes()):016x}")

@@ -294,8 +294,9 @@ class Order:
 
 
 class AllOthers(Coded):
-    def __init__(self, payload, first, energies, keep):
-        """@param keep levels of detail to read, counted from the coarsest"""
+    """The components from 3 on, of as many levels of detail as the payload has whole."""
+
+    def __init__(self, payload, first, energies):
         at = payload.at + len(payload.basis_bits) + len(payload.first_bits)
         self.payload, K, W = payload, payload.K, payload.W
         n = payload.neighbours
@@ -303,10 +304,10 @@ class AllOthers(Coded):
         counts = self.order.counts()
         if len(counts) != len(payload.level_ends):
             payload.fields.refuse("levels", "another number of levels than its vertices make")
-        keep = keep or len(counts)
-        end = payload.level_ends[keep - 1]
-        if len(payload.level_bits) < end:
+        keep = sum(end <= len(payload.level_bits) for end in payload.level_ends)
+        if keep == 0:
             payload.fields.refuse("level_bits", "ends too early")
+        end = payload.level_ends[keep - 1]
         super().__init__(payload.level_bits[:end], at, "SEGM.level_bits", payload.contexts)
         self.relevance = [1.0] * K
         for k in range(3, K):
@@ -394,9 +395,20 @@ def basis_of(Y, payload):
 def open_payload(fields, topology, frames):
     """(mean [3F], B [K][3F], C [W][K]) of a payload."""
     payload = Payload(fields, frames, len(topology.surface.vertices))
+    if payload.relax:
+        fields.refuse("relax", "relaxation is not read yet")
     Y = Poses(payload).Y
     first = FirstComponents(payload, topology.surface)
     mean, B, energies = basis_of(Y, payload)
     if payload.K <= 3:
         return mean, B, first.C
-    return mean, B, AllOthers(payload, first, energies, None).C
+    return mean, B, AllOthers(payload, first, energies).C
+
+
+def order_of(fields, topology, frames):
+    """The order in which a payload's levels of detail keep vertices."""
+    payload = Payload(fields, frames, len(topology.surface.vertices))
+    order = Order(FirstComponents(payload, topology.surface).C, 1)
+    if len(order.counts()) != len(payload.level_ends):
+        fields.refuse("levels", "another number of levels than its vertices make")
+    return order

@@ -1,91 +1,53 @@
-/// Files of every format version decode to the very same positions, whatever the machine, compiler and flags.
+/// Files of every format version decode to the very same meaning, whatever the machine, compiler and flags.
 // SPDX-License-Identifier: MIT
-#include <cmath>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "meshreel/container/stream.h"
-#include "meshreel/mesh/shapes.h"
-#include "meshreel/meshreel.h"
 #include "tests/container/generated.h"
+#include "tests/determinism/goldens.h"
+#include "tests/determinism/meaning.h"
 
 using namespace meshreel;
 
 namespace {
 
-struct Golden {
-    std::string codec, name;
-    BasisCoding basis;
-    Entropy entropy;
-
-    std::string file() const { return "tests/golden/" + codec + "_v1_" + name + ".reel"; }
-    std::string hash_file() const { return "tests/golden/" + codec + "_v1_" + name + ".xxh3"; }
-};
-
-const Golden goldens[] = {
-    {"coddyac", "raw_huffman", BasisCoding::raw, Entropy::huffman},
-    {"coddyac", "raw_range", BasisCoding::raw, Entropy::range},
-    {"coddyac", "uniform_huffman", BasisCoding::uniform, Entropy::huffman},
-    {"coddyac", "uniform_range", BasisCoding::uniform, Entropy::range},
-    {"coddyac", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
-    {"coddyac", "cobra_range", BasisCoding::cobra, Entropy::range},
-    {"coddyac", "lpc1_huffman", BasisCoding::lpc1, Entropy::huffman},
-    {"coddyac", "lpc1_range", BasisCoding::lpc1, Entropy::range},
-    {"coddyac", "lpc2_huffman", BasisCoding::lpc2, Entropy::huffman},
-    {"coddyac", "lpc2_range", BasisCoding::lpc2, Entropy::range},
-    {"coddyac", "lpc3_huffman", BasisCoding::lpc3, Entropy::huffman},
-    {"coddyac", "lpc3_range", BasisCoding::lpc3, Entropy::range},
-    {"coddyac", "lpc4_huffman", BasisCoding::lpc4, Entropy::huffman},
-    {"coddyac", "lpc4_range", BasisCoding::lpc4, Entropy::range},
-    {"na", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
-    {"na", "cobra_range", BasisCoding::cobra, Entropy::range},
-    {"lsp", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
-    {"lsp", "cobra_range", BasisCoding::cobra, Entropy::range},
-    {"rbfp", "cobra_huffman", BasisCoding::cobra, Entropy::huffman},
-    {"rbfp", "cobra_range", BasisCoding::cobra, Entropy::range},
-    {"reel", "range", BasisCoding::cobra, Entropy::range},
-    {"lossless", "floats", BasisCoding::cobra, Entropy::range},
-    {"lossless", "text", BasisCoding::cobra, Entropy::range},
-};
-
-/// XXH3-64 of the positions' bits, little-endian, as hexadecimal digits.
-std::string hash_of_positions(const Animation& animation)
+ByteView bytes_of(const std::string& text)
 {
-    Bytes bits(animation.positions.size() * 4);
-    for (std::size_t i = 0; i < animation.positions.size(); ++i)
-        container::store_real(animation.positions[i], bits.data() + 4 * i);
-    char text[20];
-    std::snprintf(text, sizeof text, "%016llx\n", static_cast<unsigned long long>(container::hash_of(bits)));
-    return text;
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// Made anew only with MESHREEL_UPDATE: an encoder may become better, old files stay.
-void make(const Golden& golden)
+/// The base mesh of a golden file, if it has one.
+std::optional<Animation> base_of(const golden::Golden& row)
 {
-    Animation cloth = *shapes::generate(*shapes::find("cloth"), {.vertices = 150, .frames = 16});
-    EncodeOptions options;
-    options.codec = golden.codec;
-    if (golden.codec != "lossless") options.quality.max_error_relative = 0.5;
-    if (golden.name == "text")
-        for (float& x : cloth.positions) x = 1.7f * std::round(1e4f * x) / 1e4f;
-    options.basis = golden.basis;
-    options.entropy = golden.entropy;
-    const Bytes reel = encode(cloth, options)->bytes;
-    write_text(golden.file(), std::string(reel.begin(), reel.end()));
+    if (row.base.empty()) return std::nullopt;
+    return *decode(bytes_of(text_of("tests/golden/" + row.base + ".reel")));
 }
 
-class GoldenFile : public testing::TestWithParam<Golden> {};
+void make(const golden::Golden& row, const Animation* base)
+{
+    if (std::filesystem::exists(std::string(MESHREEL_SOURCE_DIR) + "/" + row.file())) return;
+    EncodeOptions options = row.options;
+    options.base = base;
+    const auto encoded = encode(row.make(), options);
+    ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
+    write_text(row.file(), std::string(encoded->bytes.begin(), encoded->bytes.end()));
+}
 
-INSTANTIATE_TEST_SUITE_P(Version1, GoldenFile, testing::ValuesIn(goldens),
-                         [](const auto& row) { return row.param.codec + "_" + row.param.name; });
+class GoldenFile : public testing::TestWithParam<golden::Golden> {};
+
+INSTANTIATE_TEST_SUITE_P(Version1, GoldenFile, testing::ValuesIn(golden::all()),
+                         [](const auto& row) { return row.param.name; });
 
 } // namespace
 
-TEST_P(GoldenFile, DecodesToTheSamePositionsBitForBit)
+TEST_P(GoldenFile, DecodesToTheSameMeaningBitForBit)
 {
-    if (updating()) make(GetParam());
-    const std::string text = text_of(GetParam().file());
-    const auto animation = decode({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    ASSERT_TRUE(animation.ok()) << animation.error().sentence();
-    expect_file(GetParam().hash_file(), hash_of_positions(*animation));
+    const golden::Golden& row = GetParam();
+    const std::optional<Animation> base = base_of(row);
+    if (updating()) make(row, base ? &*base : nullptr);
+    const std::string file = text_of(row.file());
+    const auto meaning = golden::meaning_of(bytes_of(file), base ? &*base : nullptr);
+    ASSERT_TRUE(meaning.ok()) << meaning.error().sentence();
+    expect_file(row.meaning_file(), meaning->dump(1) + "\n");
 }
