@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """What a .reel file means, as tests/golden/*.json has it.
 
 SPDX-License-Identifier: MIT

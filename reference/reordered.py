@@ -145,7 +145,8 @@ class Order:
         if h is not None:
             found[9:12] = [walked.across(edge) for edge in (h, after(h), before(h))]
         p, q = self.p, self.q
-        numbers = {18: p[0] + 1, 19: p[0] - 1, 20: p[1] + 1, 21: self.last_new, 30: 2 * q[0] - q[1], 31: 2 * q[1] - q[3]}
+        numbers = {18: p[0] + 1, 19: p[0] - 1, 20: p[1] + 1, 21: self.last_new,
+                   30: 2 * q[0] - q[1], 31: 2 * q[1] - q[3]}
         for kind, number in numbers.items():
             found[kind] = walked.at_number(number)
         before_this = self.past[0] // 3

@@ -60,4 +60,6 @@ for path in sorted(GOLDEN.glob("*.reel")):
     setattr(GoldenFiles, f"test_{path.stem}_means_what_the_first_decoder_says", same_as_golden(path.stem))
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    print(f"{outcome.testsRun} tests, {len(outcome.failures) + len(outcome.errors)} failed")
+    sys.exit(not outcome.wasSuccessful())
