@@ -46,24 +46,44 @@ def frames(clip):
     return glb.build(clip.triangles, positions[0], positions[1:] - positions[0], numpy.eye(clip.F)[:, 1:])
 
 
+STEPS = 255  # gltfpack keeps weights as 8 bits from 0 to 1
+
+
+def principal(centred, whole, share):
+    """Components [K x 3V], weights [F x K]: until what is left is so many percent of the whole."""
+    squares, vectors = numpy.linalg.eigh(centred @ centred.T)  # F x F, ascending
+    left = numpy.cumsum(numpy.maximum(squares, 0))  # what is lost without this component and all smaller ones
+    count = max(1, int((numpy.sqrt(left / whole) * 100 > share).sum()))
+    weights = vectors[:, ::-1][:, :count]
+    return weights.T @ centred, weights
+
+
+def refined(targets, weights, whole, share):
+    """Weights of eight bits are too coarse for large components: those get a second target, a step of the first in length,
+    until rounding costs a third of the share."""
+    noise = len(weights) * numpy.square(targets).sum(axis=1) / 12 / STEPS**2 / whole * 1e4
+    noise_left = numpy.cumsum(noise[::-1])[::-1]  # of this component and all smaller ones: they are sorted nearly so
+    fine = int((noise_left > (share / 3)**2).sum())
+    coarse = weights.copy()
+    coarse[:, :fine] = numpy.minimum(numpy.floor(weights[:, :fine] * STEPS), STEPS - 1) / STEPS
+    rest = (weights - coarse)[:, :fine] * STEPS
+    return numpy.concatenate([targets, targets[:fine] / STEPS]), numpy.concatenate([coarse, rest], axis=1)
+
+
 def components(clip, share):
-    """Principal components of trajectories until the rest is so many percent of all motion and shape (KG). gltfpack keeps
-    weights as 8 bits from 0 to 1: the base is where each component is least, a target spans all that it does."""
+    """Principal components of trajectories until so many percent (KG) are left. The base is where each weight is least, a
+    target spans all that its component does."""
     watch = Stopwatch()
     positions = numpy.asarray(clip.positions, dtype=numpy.float64)
     with watch.running():
         flat = positions.reshape(clip.F, -1)
         mean = flat.mean(axis=0)
-        centred = flat - mean
-        squares, vectors = numpy.linalg.eigh(centred @ centred.T)  # F x F, ascending
-        all_of_it = numpy.square(positions - positions.mean(axis=1, keepdims=True)).sum()
-        left = numpy.cumsum(numpy.maximum(squares, 0))  # what is lost without this component and all smaller ones
-        count = max(1, int((numpy.sqrt(left / all_of_it) * 100 > share).sum()))
-        weights = vectors[:, ::-1][:, :count]
-        targets = weights.T @ centred
+        whole = numpy.square(positions - positions.mean(axis=1, keepdims=True)).sum()
+        targets, weights = principal(flat - mean, whole, share)
         low, span = weights.min(axis=0), numpy.maximum(numpy.ptp(weights, axis=0), 1e-30)
         base = (mean + low @ targets).reshape(-1, 3)
-        document = glb.build(clip.triangles, base, (targets * span[:, None]).reshape(count, -1, 3), (weights - low) / span)
+        targets, weights = refined(targets * span[:, None], (weights - low) / span, whole, share)
+        document = glb.build(clip.triangles, base, targets.reshape(len(targets), -1, 3), weights)
     return document, watch.seconds
 
 
@@ -91,7 +111,7 @@ def frames_peer(option, zipped):
 
 PEERS = (frames_peer("-c", False), frames_peer("-cc", True), frames_peer("-cz", True),
          Peer(name="gltfpack-pca", title="gltfpack -cz, PCA targets + zstd", **SAME,
-              counts=f"one GLB file under zstd -19: {INSIDE}; components until so many percent (KG) are left, weights of 8 bits",
+              counts=f"one GLB file under zstd -19: {INSIDE}; large components have a second, fine target, because gltfpack keeps weights as 8 bits",
               ladder=tuple({"share": share, "bits": bits} for share, bits in
                            ((4, 10), (2, 10), (1, 11), (0.5, 12), (0.25, 13), (0.12, 14), (0.06, 15))),
               encode=encode_components))
