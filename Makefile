@@ -19,13 +19,15 @@ test:           ## the fast tests of a development build
 fuzz:           ## every fuzz target for a minute
 	tools/fuzz.sh 60
 
-bench:          ## speeds and memory
+bench:          ## speeds and memory; KEEP=1: into docs/benchmarks.md
 	cmake --preset bench
 	cmake --build build-bench
-	build-bench/bench/bench_sequences --csv build-bench/sequences.csv
-	build-bench/bench/bench_player
-	build-bench/bench/bench_measures
+	build-bench/bench/bench_sequences --csv build-bench/speeds.csv
+	build-bench/bench/bench_player >build-bench/player.txt && cat build-bench/player.txt
+	build-bench/bench/bench_measures --only walker -n 21 >build-bench/measures.txt && cat build-bench/measures.txt
 	build-bench/bench/bench_space_time
+	$(if $(KEEP),lab/take.py speeds build-bench/speeds.csv && lab/take.py player build-bench/player.txt)
+	$(if $(KEEP),lab/take.py measures build-bench/measures.txt && lab/tables.py)
 
 bench-effort: build ## the table of docs/effort.md
 	bench/effort.py --write
@@ -33,12 +35,15 @@ bench-effort: build ## the table of docs/effort.md
 bench-ledger: build ## exact sizes beside lab/ledger.csv; REASON="why they change" renews it
 	lab/ledger.py $(if $(REASON),--renew --reason "$(REASON)")
 
-bench-plan: build   ## everyone side by side: make bench-plan PLAN=lab/plans/codecs.toml; docs/lab.md; KEEP=1 renews lab/results
-	tools/install.sh --with-figures
+bench-plan:    ## everyone side by side: make bench-plan PLAN=lab/plans/codecs.toml; docs/lab.md; KEEP=1 renews lab/results
+	tools/install.sh --with-figures --with-peers
+	cmake --preset release -DMESHREEL_BUILD_LAB=ON
+	cmake --build build
 	lab/bench.py $(or $(PLAN),lab/plans/everyone.toml) $(if $(DATA),--data $(DATA)) $(if $(KEEP),--keep)
 
 bench-scale: build  ## how cost grows with V and F: the table of docs/benchmarks.md
-	bench/scale.py
+	bench/scale.py >build/scale.txt && cat build/scale.txt
+	lab/take.py scale build/scale.txt && lab/tables.py
 
 bench-search: build ## what looking for a target costs, in encodes
 	bench/search.py
@@ -46,9 +51,8 @@ bench-search: build ## what looking for a target costs, in encodes
 bench-surfaces: build ## distances of surfaces beside MeshLab (tools/install.sh --with-meshlab)
 	bench/surfaces.py
 
-bench-rate: build   ## rates at given errors beside what they must be: bench/ledger.csv and the README's table
-	bench/rate.py --ledger bench/ledger.csv
-	bench/rate.py --readme bench/ledger.csv
+bench-rate: build   ## rates at given errors beside what they must be; the README's table
+	bench/rate.py --keep && lab/tables.py
 
 figures:        ## the thesis' tables and figures, measured: docs/thesis-figures.md; DATA=FOLDER where the sequences are elsewhere
 	tools/install.sh --with-figures
@@ -61,6 +65,7 @@ format:         ## clang-format on every source
 
 docs:           ## the pages that are made from the code
 	tools/deviations.py
+	lab/tables.py
 
 clean:
 	rm -rf build build-* demo-out

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Encodes every real sequence at the errors of the plan, prints the rates beside what they must be, and keeps the ledger.
+"""Encodes every real sequence at the errors of lab/plans/rates.toml, prints the rates beside what they must be, and keeps them.
 
 The rate is that of the whole file without the original order (--order free); KG and STED are what `compare` measures on
-the decoded PC2. Where the plan gives no rate, it is half of what RBFP with Cobra and Huffman takes at the same error.
+the decoded PC2. Where the plan promises nothing, it is half of what RBFP with Cobra and Huffman takes at the same error.
 """
 # SPDX-License-Identifier: MIT
 import argparse
@@ -14,14 +14,10 @@ import tempfile
 
 from command import ROOT, bpfv, declare, paths_of, run
 
-FIVE = ("dance", "chicken", "cow", "horse_gallop", "crane")
-# (measure, value): bits per frame and vertex that must be met and that are aimed at.
-PLAN = {("dance", "kg", 0.090): (0.310, 0.23), ("chicken", "kg", 0.371): (0.405, 0.30), ("cow", "kg", 0.598): (0.530, 0.40)}
-PLAN |= {(name, "kg", 0.5): (must, 0.75 * must) for name, must in zip(FIVE, (0.140, 0.385, 0.64, 0.47, 0.28))}
-PLAN |= {(name, "kg", 0.1): (must, 0.75 * must) for name, must in zip(FIVE, (0.295, 0.79, 2.5, 1.18, 1.17))}
-PLAN |= {(name, "sted", 0.03): (must, 0.7 * must) for name, must in zip(FIVE, (0.175, 0.39, 1.0, 0.77, 0.30))}
-PLAN |= {(name, measure, value): None for measure, value in (("kg", 0.1), ("kg", 0.5), ("sted", 0.03))
-         for name in ("walker", "cloth", "flag", "snake", "bone", "dolphin")}
+sys.path.insert(0, os.path.join(ROOT, "lab"))
+import plan  # noqa: E402
+import releases  # noqa: E402
+
 COLUMNS = ["sequence", "measure", "asked", "kg", "sted", "bytes", "bpfv", "must", "aim", "bases", "step"]
 
 
@@ -31,9 +27,9 @@ def arguments():
     parser.add_argument("--codec", default="reel")
     parser.add_argument("--entropy", default="range", choices=("range", "huffman"))
     parser.add_argument("--effort", type=int, help="of the encoder; default: its own")
-    parser.add_argument("--ledger", help="write the table here as CSV")
-    parser.add_argument("--readme", metavar="LEDGER", help="write this ledger into the README's table, and do no more")
-    parser.add_argument("--check", metavar="LEDGER", help="exit with 1 where a file is larger than in this ledger")
+    parser.add_argument("--csv", help="write the table here too")
+    parser.add_argument("--keep", action="store_true", help="put the rates into lab/results/rates.csv, under the newest release of the CHANGELOG")
+    parser.add_argument("--check", action="store_true", help="exit with 1 where a file is larger than lab/results/rates.csv has it")
     parser.add_argument("sequences", nargs="*", help="default: all")
     return parser.parse_args()
 
@@ -44,10 +40,9 @@ class Sequence:
         self.motion, self.mesh = paths_of(options.data, name)
         self.reel, self.decoded = os.path.join(folder, name + ".reel"), os.path.join(folder, name + ".pc2")
 
-    def encode(self, measure, value, *how):
-        tune = ["--tune", "sted"] if measure == "sted" else []
-        return run(self.options.command, "encode", self.motion, "--mesh", self.mesh, self.reel, f"--{measure}", value,
-                   "--order", "free", "-y", *tune, *how)
+    def encode(self, settings, *how):
+        asked = [word for name, value in settings.items() for word in (f"--{name}", value)]
+        return run(self.options.command, "encode", self.motion, "--mesh", self.mesh, self.reel, "-y", *asked, *how)
 
     def measured(self):
         run(self.options.command, "decode", self.reel, self.decoded, "-y")
@@ -56,17 +51,21 @@ class Sequence:
         return found["metrics"]
 
 
-def row_of(sequence, key, options):
-    name, measure, value = key
-    if PLAN[key] is None:
-        baseline = bpfv(sequence.encode(measure, value, "--codec", "rbfp", "--entropy", "huffman"))
-        must, aim = 0.5 * baseline, 0.35 * baseline
+def asked_of(row):
+    """Measure and value."""
+    return next((measure, row.settings[measure]) for measure in ("kg", "sted") if measure in row.settings)
+
+
+def row_of(sequence, planned, options):
+    if planned.promised:
+        must, aim = planned.promised["must"], planned.promised["aim"]
     else:
-        must, aim = PLAN[key]
+        baseline = bpfv(sequence.encode(planned.settings, "--codec", "rbfp", "--entropy", "huffman"))
+        must, aim = 0.5 * baseline, 0.35 * baseline
     effort = ["-e", options.effort] if options.effort else []
-    figures = sequence.encode(measure, value, "--codec", options.codec, "--entropy", options.entropy, *effort)
+    figures = sequence.encode(planned.settings, "--codec", options.codec, "--entropy", options.entropy, *effort)
     found = sequence.measured()
-    return dict(zip(COLUMNS, [name, measure, value, round(found["kg"], 6), round(found["sted"], 6), figures["reel_bytes"],
+    return dict(zip(COLUMNS, [planned.sequence, *asked_of(planned), round(found["kg"], 6), round(found["sted"], 6), figures["reel_bytes"],
                               round(bpfv(figures), 4), round(must, 4), round(aim, 4), figures["bases"],
                               figures["step"]])), figures["encode_seconds"]
 
@@ -77,60 +76,47 @@ def verdict(row):
     return "aim met" if row["bpfv"] <= row["aim"] else "met" if row["bpfv"] <= row["must"] else "NOT MET"
 
 
-def grown(rows, path):
-    """Files that are larger than the ledger says."""
-    with open(path, newline="", encoding="utf-8") as file:
-        known = {(r["sequence"], r["measure"], float(r["asked"])): int(r["bytes"]) for r in csv.DictReader(file)}
+def grown(rows, kept):
+    """Files that are larger than the newest release's."""
+    known = {(r["sequence"], r["measure"], float(r["asked"])): int(r["bytes"]) for r in kept if r["release"] == kept[0]["release"]}
     keys = [((r["sequence"], r["measure"], float(r["asked"])), r["bytes"]) for r in rows]
-    return [f"{key}: {size} bytes, {known[key]} in the ledger" for key, size in keys if size > known.get(key, math.inf)]
+    return [f"{key}: {size} bytes, {known[key]} in lab/results/rates.csv" for key, size in keys if size > known.get(key, math.inf)]
 
 
-def summary(path):
-    """The ledger as a table in Markdown: a line a sequence."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rates = {(r["sequence"], r["measure"], float(r["asked"])): float(r["bpfv"]) for r in csv.DictReader(file)}
-    columns = [("kg", 0.5, "KG 0.5 %"), ("kg", 0.1, "KG 0.1 %"), ("sted", 0.03, "STED 0.03")]
-    lines = ["| sequence | " + " | ".join(title for _, _, title in columns) + " | at KG 0.1 % of float32 |",
-             "|" + "---|" * (len(columns) + 2)]
-    for name in dict.fromkeys(sequence for sequence, _, _ in rates):
-        at = [rates[name, measure, value] for measure, value, _ in columns]
-        lines.append(f"| {name} | " + " | ".join(f"{rate:.3f}" for rate in at) + f" | 1 : {96 / at[1]:.0f} |")
-    return lines
+def write_csv(path, rows):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
-def write_readme(path):
-    readme = os.path.join(ROOT, "README.md")
-    with open(readme, encoding="utf-8") as file:
-        text = file.read()
-    begin, end = text.index("| sequence |"), text.index("\n\n", text.index("| sequence |"))
-    with open(readme, "w", encoding="utf-8") as file:
-        file.write(text[:begin] + "\n".join(summary(path)) + text[end:])
-
-
-def main():
-    options = arguments()
-    if options.readme:
-        return write_readme(options.readme)
-    print(f"{'sequence':<14}{'at':<12}{'KG %':>9}{'STED':>9}{'bytes':>9}{'bpfv':>9}{'must':>8}{'aim':>8}{'K':>5}{'enc s':>8}")
-    rows = []
+def measured_rows(options):
+    """Each row of the plan, measured and printed."""
+    rows, planned = [], plan.load(os.path.join(ROOT, "lab/plans/rates.toml"))
     with tempfile.TemporaryDirectory() as folder:
-        for key in PLAN:
-            if options.sequences and key[0] not in options.sequences:
+        for item in planned:
+            if options.sequences and item.sequence not in options.sequences:
                 continue
-            if not paths_of(options.data, key[0]):
-                print(f"{key[0]:<14}skipped, its data are not here")
+            if not paths_of(options.data, item.sequence):
+                print(f"{item.sequence:<14}skipped, its data are not here")
                 continue
-            row, seconds = row_of(Sequence(key[0], options, folder), key, options)
+            row, seconds = row_of(Sequence(item.sequence, options, folder), item, options)
             rows.append(row)
             print(f"{row['sequence']:<14}{row['measure'] + ' ' + str(row['asked']):<12}{row['kg']:>9.4f}{row['sted']:>9.5f}"
                   f"{row['bytes']:>9}{row['bpfv']:>9.4f}{row['must']:>8.3f}{row['aim']:>8.3f}{row['bases']:>5}{seconds:>8.1f}"
                   f"  {verdict(row)}", flush=True)
-    if options.ledger:
-        with open(options.ledger, "w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
-    complaints = grown(rows, options.check) if options.check else []
+    return rows
+
+
+def main():
+    options = arguments()
+    print(f"{'sequence':<14}{'at':<12}{'KG %':>9}{'STED':>9}{'bytes':>9}{'bpfv':>9}{'must':>8}{'aim':>8}{'K':>5}{'enc s':>8}")
+    rows = measured_rows(options)
+    complaints = grown(rows, releases.read("rates")) if options.check else []
+    if options.csv:
+        write_csv(options.csv, rows)
+    if options.keep:
+        releases.renew("rates", rows, ["sequence", "measure", "asked"])
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
 

@@ -78,6 +78,7 @@ def draw(folder, curves, outcome):
 
 def main(words=None):
     options = arguments(words)
+    os.environ["MESHREEL_BUILD"] = os.path.abspath(options.build)  # where peers that are programs of ours are
     curves = wanted(options)
     out = options.out or os.path.join(options.build, "lab", curves.name)
     os.makedirs(out, exist_ok=True)

@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: MIT
 import json
 import os
+import re
 import shutil
 import subprocess
 from dataclasses import dataclass, field
 
 from provenance import digest
+
+PEERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peers")
 
 
 class CodingError(Exception):
@@ -80,8 +83,7 @@ class PeerCodec:
     """A peer of lab/peers."""
 
     def __init__(self, peer):
-        here = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peers")
-        code = sorted(os.path.join(here, name) for name in os.listdir(here) if name.endswith((".py", ".js", ".mjs", ".json", ".cpp")))
+        code = sorted(os.path.join(PEERS, name) for name in os.listdir(PEERS) if name.endswith((".py", ".js", ".mjs", ".json", ".cpp")))
         self.peer, self.counts, self.lossless = peer, peer.counts, peer.lossless
         self.missing, self.version = peer.missing, version_of(peer)
         self.identity = f"{peer.name} {self.version} {digest(*code)[:16]}"
@@ -97,14 +99,23 @@ class PeerCodec:
         return next(path for path in run.files if str(path).endswith(".pc2")), run.seconds
 
 
+def asked(*words):
+    """The first line of what a command says; nothing where there is no such command."""
+    if not shutil.which(words[0]):
+        return ""
+    said = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+    return said.splitlines()[0].strip(" *") if said else ""
+
+
 def version_of(peer):
-    """The peer's package, and what the command that its source names in brackets says of the version."""
-    package, _, asked = peer.source.partition("(")
-    words = asked.split(")")[0].split()
-    if not words or not shutil.which(words[0]):
-        return peer.source
-    said = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout.strip()
-    return f"{package.strip()}, {said.splitlines()[0].strip(' *')}" if said else peer.source
+    """The peer's source, and what is found where it says that versions are asked for: dpkg -s, X --version, package.json."""
+    found = [asked("dpkg-query", "-W", "-f", "${Package} ${Version}", name) for name in re.findall(r"dpkg -s ([\w.+-]+)", peer.source)]
+    found += [asked(name, "--version") for name in re.findall(r"([\w.+-]+) --version", peer.source)]
+    if "package.json" in peer.source:
+        with open(os.path.join(PEERS, "package.json"), encoding="utf-8") as file:
+            pinned = json.load(file).get("dependencies", {})
+        found += [f"{name} {version}" for name, version in pinned.items() if name in peer.source]
+    return ", ".join([peer.source.split(" (")[0], *filter(None, found)])
 
 
 def peers_here():

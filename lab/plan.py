@@ -16,6 +16,7 @@ class Row:
     settings: dict
     name: str = ""
     printed: dict = field(default_factory=dict)
+    promised: dict = field(default_factory=dict)  # what must be reached
     made: dict = field(default_factory=dict)  # how the sequence is generated; empty: it is data
 
 
@@ -58,8 +59,8 @@ def rows_of(plan):
         for table in tables if isinstance(tables, list) else [tables]:
             for coding in plan.get("coding", [{}]):
                 settings = {**plan.get("common", {}), **table, **coding}
-                name, printed, made = settings.pop("name", ""), settings.pop("printed", {}), settings.pop("made", {})
-                rows.append(Row(plan["measure"], sequence, settings, name, printed, made))
+                name, besides = settings.pop("name", ""), {key: settings.pop(key, {}) for key in ("printed", "promised", "made")}
+                rows.append(Row(plan["measure"], sequence, settings, name, **besides))
     return rows
 
 

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""Writes the tables of the README and of docs/benchmarks.md from lab/results; --check says which are stale.
+
+A table stands between two comments that name it; the newest release is whatever heads the CHANGELOG."""
+# SPDX-License-Identifier: MIT
+import argparse
+import os
+import re
+import sys
+
+import plan
+import releases
+import verdicts
+
+ROOT = releases.ROOT
+TARGETS = [("kg", "0.5", "KG 0.5 %"), ("kg", "0.1", "KG 0.1 %"), ("sted", "0.03", "STED 0.03")]
+BEGIN, END = "<!-- made by lab/tables.py: {} -->\n", "<!-- end -->\n"
+SPEEDS = {"sequence": "sequence", "V": "V", "F": "F", "K": "K", "encode": "encode", "decode": "decode", "copy": "copy", "product": "product",
+          "encode_peak": "encode peak MB", "decode_peak": "decode peak MB", "pca_s": "PCA s", "pca_memory": "PCA memory / animation",
+          "encode_share": "encode / (10 PCA + decode)"}
+POSING = {"V": "V", "F": "F", "K": "K", "product_ms": "product ms", "gflops": "GFLOP/s", "all": "all %", "each": "each %", "one": "one %"}
+OPENING = {"product_ms": "product ms", "bpfv": "bits a frame and vertex", "open_1": "one thread", "open_2": "two",
+           "fast_more": "`--fast-decode`: more bits, %", "fast_open_1": "one thread", "fast_open_2": "two"}
+SCALE = {"shape": "shape", "V": "V", "F": "F", "segments": "segments", "K": "K", "positions_mb": "positions MB", "bpfv": "bpfv",
+         "encode_s": "encode s", "encode_ns": "ns a vertex and frame", "encode_peak": "peak MB", "decode_s": "decode s",
+         "decode_ns": "ns a vertex and frame", "decode_peak": "peak MB"}
+
+
+def markdown(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+
+
+def of_newest(name):
+    """The rows of the newest release that has any."""
+    rows = releases.read(name)
+    newest = next((release for release in releases.releases() if any(row["release"] == release for row in rows)), None)
+    return [row for row in rows if row["release"] == newest]
+
+
+def rates_by_key(rows):
+    """{(release, sequence, measure, asked): bits a frame and vertex}."""
+    return {(row["release"], row["sequence"], row["measure"], row["asked"]): float(row["bpfv"]) for row in rows}
+
+
+def result_table(rows, known):
+    """The README's: the newest release at every target, and one column for each earlier release."""
+    rates, now, earlier = rates_by_key(rows), known[0], known[1:]
+    head = ["sequence", *(title for _, _, title in TARGETS), "at KG 0.1 % of float32", *(f"{release}, KG 0.1 %" for release in earlier)]
+    lines, number = [], lambda value: "" if value is None else f"{value:.3f}"
+    for name in dict.fromkeys(row["sequence"] for row in rows if row["release"] == now):
+        at = [rates[now, name, measure, asked] for measure, asked, _ in TARGETS]
+        lines.append([name, *map(number, at), f"1 : {96 / at[1]:.0f}", *(number(rates.get((release, name, "kg", "0.1"))) for release in earlier)])
+    return markdown(head, lines)
+
+
+def with_results(rows, known=None):
+    """The releases that have rows, the newest first."""
+    return [release for release in known or releases.releases() if any(row["release"] == release for row in rows)]
+
+
+def release_table(rows, known):
+    """A row a sequence and target, a column a release."""
+    rates = rates_by_key(rows)
+    keys = dict.fromkeys((row["sequence"], row["measure"], row["asked"]) for row in rows)
+    cells = lambda key: [f"{rates[release, *key]:.4f}" if (release, *key) in rates else "" for release in known]
+    return markdown(["sequence", "at", *known], [[key[0], f"{key[1].upper()} {key[2]}{' %' if key[1] == 'kg' else ''}", *cells(key)] for key in keys])
+
+
+def speed_releases(rows, known):
+    """Encoding and decoding, a column a release."""
+    by = {(row["release"], row["sequence"]): row for row in rows}
+    head = ["sequence", *(f"{what}, {release}" for what in ("encode", "decode") for release in known)]
+    return markdown(head, [[name, *(by.get((release, name), {}).get(what, "") for what in ("encode", "decode") for release in known)]
+                           for name in dict.fromkeys(name for _, name in by)])
+
+
+def plain_table(rows, columns):
+    return markdown(columns.values(), [[row[column] for column in columns] for row in rows])
+
+
+def player_table(rows, columns, of):
+    """The player's rows that have that column; what was asked for besides is told with the name."""
+    mine = [row for row in rows if row[of]]
+    names = [row["sequence"] + (f", `{row['options']}`" if row["options"] else "") for row in mine]
+    return markdown(["sequence", *columns.values()], [[name, *(row[column] for column in columns)] for name, row in zip(names, mine)])
+
+
+def measure_table(rows):
+    code = lambda name: name if " " in name else f"`{name}`"
+    return markdown(["", "ms", "passes"], [[code(row["measure"]), row["ms"], row["passes"]] for row in rows])
+
+
+def numbers(rows):
+    """Rows of a plan's CSV file with numbers where there are some."""
+    def value(text):
+        try:
+            return float(text)
+        except ValueError:
+            return text
+    return [{key: value(text) for key, text in row.items()} for row in rows]
+
+
+def signed(delta):
+    if delta is None or delta.percent is None:
+        return "–"
+    return f"{delta.percent:+.0f} %{'*' if delta.share < 0.5 else ''}"
+
+
+def delta_table(name, measure):
+    """Bjontegaard-delta rates of a plan's codings against its anchor."""
+    rows, curves = numbers(releases.read(name)), plan.read(os.path.join(ROOT, "lab/plans", name + ".toml"))
+    found = verdicts.deltas(rows, measure, curves["anchor"])
+    sequences = list(dict.fromkeys(row["sequence"] for row in rows))
+    lines = []
+    for coding in dict.fromkeys(coding for _, coding in found):
+        mine = {sequence: found.get((sequence, coding)) for sequence in sequences}
+        mean = verdicts.mean_delta(filter(None, mine.values()))
+        lines.append([coding, *(signed(delta) for delta in mine.values()), "–" if mean is None else f"{mean:+.0f} %"])
+    return markdown([f"against {curves['anchor']}", *sequences, "mean"], lines)
+
+
+def level_table(name, measure, error, digits=2):
+    """Rate and decoding speed of a plan's codings at one error."""
+    rows = numbers(releases.read(name))
+    found = verdicts.at_error(rows, measure, error)
+    sequences = list(dict.fromkeys(row["sequence"] for row in rows))
+    cell = lambda key: f"{found[key][0]:.{digits}f} / {found[key][2]:.3g}" if key in found else "–"
+    return markdown(["", *sequences], [[coding, *(cell((sequence, coding)) for sequence in sequences)]
+                                       for coding in dict.fromkeys(row["coding"] for row in rows) if any(key[1] == coding for key in found)])
+
+
+def exact_table(name):
+    """Rate and decoding speed of what comes back bit for bit."""
+    rows = [row for row in numbers(releases.read(name)) if row["max_error_relative"] == 0]
+    by = {(row["coding"], row["sequence"]): f"{row['bpfv']:.2f} / {row['decode_mvs']:.3g}" for row in rows}
+    codings, sequences = (list(dict.fromkeys(row[key] for row in rows)) for key in ("coding", "sequence"))
+    return markdown(["", *sequences], [[coding, *(by.get((coding, sequence), "–") for sequence in sequences)] for coding in codings])
+
+
+def made_by(name):
+    """What the head of a plan's CSV file says, as one paragraph."""
+    with open(os.path.join(releases.RESULTS, name + ".csv"), encoding="utf-8") as file:
+        words = [line.removeprefix("#").strip() for line in file if line.startswith("#")]
+    return ["Made by: " + "; ".join(word for word in words if word.split(" ")[0] in ("plan", "commit", "compiler", "machine")) + "."]
+
+
+TABLES = {
+    "README.md": {"results": lambda: result_table(rows := releases.read("rates"), with_results(rows))},
+    "docs/benchmarks.md": {
+        "rates": lambda: release_table(rows := releases.read("rates"), with_results(rows)),
+        "everyone, KG": lambda: delta_table("everyone", "kg"),
+        "everyone, STED": lambda: delta_table("everyone", "sted"),
+        "everyone, largest error": lambda: delta_table("everyone", "max_error_relative"),
+        "everyone at KG 0.1 %": lambda: level_table("everyone", "kg", 0.1),
+        "everyone without loss": lambda: exact_table("everyone"),
+        "everyone, made by": lambda: made_by("everyone"),
+        "codecs, KG": lambda: delta_table("codecs", "kg"),
+        "codecs, STED": lambda: delta_table("codecs", "sted"),
+        "codecs, made by": lambda: made_by("codecs"),
+        "speeds": lambda: plain_table(of_newest("speeds"), SPEEDS),
+        "speeds by release": lambda: speed_releases(rows := releases.read("speeds"), with_results(rows)),
+        "posing": lambda: player_table(of_newest("player"), POSING, "all"),
+        "opening": lambda: player_table(of_newest("player"), OPENING, "open_1"),
+        "measures": lambda: measure_table(of_newest("measures")),
+        "scale": lambda: plain_table(of_newest("scale"), SCALE),
+    },
+}
+
+
+def filled(text, makers):
+    """A page with each of its tables made anew; a table that the page names and nobody makes is an error."""
+    def make(match):
+        return BEGIN.format(match[1]) + "\n" + "\n".join(makers[match[1]]()) + "\n\n" + END
+    return re.sub(re.escape(BEGIN).replace(r"\{\}", r"([^\n]+?)") + ".*?" + re.escape(END), make, text, flags=re.S)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--check", action="store_true", help="write nothing; exit with 1 where a page is stale")
+    options, stale = parser.parse_args(), []
+    for page, makers in TABLES.items():
+        with open(os.path.join(ROOT, page), encoding="utf-8") as file:
+            text = file.read()
+        fresh = filled(text, makers)
+        stale += [page] if fresh != text else []
+        if not options.check:
+            with open(os.path.join(ROOT, page), "w", encoding="utf-8") as file:
+                file.write(fresh)
+    if options.check and stale:
+        sys.exit(f"stale: {', '.join(stale)}; lab/tables.py makes them")
+
+
+if __name__ == "__main__":
+    main()
