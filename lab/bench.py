@@ -61,9 +61,15 @@ def codecs_of(curves, command):
 
 def made_by(options, command, codecs, checksums):
     lines = [f"commit {provenance.commit(ROOT)}", f"compiler {provenance.build(options.build)}", f"machine {provenance.machine()}",
+             f"load {os.getloadavg()[2]:.1f}, the mean of the last 15 minutes; above the number of cores, times are too long",
              f"meshreel sha256 {command.identity}"]
     lines += [f"{codec.peer.name}: {codec.version}" for codec in codecs.values() if isinstance(codec, codings.PeerCodec)]
     return lines + [f"{name} sha256 {checksum[:16]}" for name, checksum in sorted(checksums.items())]
+
+
+def said(curves, options):
+    """The plan, and what was left out of it."""
+    return f"plan {curves.name}.toml, runs {curves.runs}" + (f", {options.points} points of each curve" if options.points else "")
 
 
 def draw(folder, curves, outcome):
@@ -95,7 +101,7 @@ def main(words=None):
     lines = made_by(options, command, codecs, sequences.checksums)
     places = [(out, out)] + ([(os.path.join(ROOT, "lab/results"), os.path.join(ROOT, "docs/figures"))] if options.keep else [])
     for tables, figures in places:
-        write_csv(os.path.join(tables, curves.name + ".csv"), outcome.rows, [f"plan {curves.name}.toml, runs {curves.runs}"] + lines)
+        write_csv(os.path.join(tables, curves.name + ".csv"), outcome.rows, [said(curves, options)] + lines)
         draw(figures, curves, outcome)
     page = os.path.join(out, curves.name + ".html")
     report.write(page, report.facts(curves, outcome, codecs, lines))

@@ -5,6 +5,8 @@ import os
 import re
 import shutil
 import subprocess
+import sys
+import types
 from dataclasses import dataclass, field
 
 from provenance import digest
@@ -83,10 +85,9 @@ class PeerCodec:
     """A peer of lab/peers."""
 
     def __init__(self, peer):
-        code = sorted(os.path.join(PEERS, name) for name in os.listdir(PEERS) if name.endswith((".py", ".js", ".mjs", ".json", ".cpp")))
         self.peer, self.counts, self.lossless = peer, peer.counts, peer.lossless
         self.missing, self.version = peer.missing, version_of(peer)
-        self.identity = f"{peer.name} {self.version} {digest(*code)[:16]}"
+        self.identity = f"{peer.name} {self.version} {digest(*code_of(sys.modules[peer.encode.__module__]))[:16]}"
 
     def encode(self, clip, point, folder):
         run = self.peer.encode(clip, point, folder)
@@ -97,6 +98,17 @@ class PeerCodec:
         os.makedirs(back, exist_ok=True)
         run = self.peer.decode(files, back)
         return next(path for path in run.files if str(path).endswith(".pc2")), run.seconds
+
+
+def code_of(module):
+    """The files that a peer is made of: its module, what that uses of lab/peers, and all programs there that are not Python."""
+    found, open_ = set(), [module]
+    while open_:
+        one = open_.pop()
+        found.add(one.__file__)
+        used = [value if isinstance(value, types.ModuleType) else sys.modules.get(getattr(value, "__module__", None)) for value in vars(one).values()]
+        open_ += [other for other in used if other and (getattr(other, "__file__", None) or "").startswith(PEERS) and other.__file__ not in found]
+    return sorted(found | {os.path.join(PEERS, name) for name in os.listdir(PEERS) if name.endswith((".mjs", ".cpp", ".json"))})
 
 
 def asked(*words):

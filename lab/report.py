@@ -132,8 +132,9 @@ def part(name):
 
 
 def page(known):
-    lead = (f"{len(known['codings'])} codings on {len(known['sequences'])} sequences. Rate is the whole file's bits per frame and vertex; lower "
-            f"and further left is better.")
+    count = lambda key, word: f"{len(known[key])} {word}{'s' * (len(known[key]) != 1)}"
+    lead = (f"{count('codings', 'coding')} on {count('sequences', 'sequence')}. Rate is the whole file's bits per frame and vertex; lower "
+            "and further left is better.")
     tables = delta_section(known) + level_section(known) + lossless_section(known) + every_row(known) + background(known)
     pieces = {"title": html.escape(known["title"]), "lead": html.escape(lead), "css": part("report.css"), "js": part("report.js"), "tables": tables,
               "facts": json.dumps(known, separators=(",", ":")).replace("<", "\\u003c")}

@@ -233,7 +233,7 @@ function start() {
   chart.addEventListener("pointerleave", (event) => { if (event.pointerType === "mouse") point(null, null); });
   chart.addEventListener("keydown", key);
   chart.addEventListener("blur", () => point(null, null));
-  let width = 0;
+  let width = chart.clientWidth;
   new ResizeObserver(() => { if (chart.clientWidth !== width) { width = chart.clientWidth; cursor = null; draw(); } }).observe(chart);
   draw();
 }
