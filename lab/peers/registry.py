@@ -1,9 +1,9 @@
 """Every peer, one row each: what the lab's plans and tests run through."""
 # SPDX-License-Identifier: MIT
-from . import arrays, draco, gltf, meshopt, plain, skinning
+from . import arrays, draco, gltf, meshopt, pca, plain, skinning
 from .peer import Peer, PeerError, Run  # noqa: F401, whoever runs peers needs these too
 
-PEERS = (*plain.PEERS, *arrays.PEERS, *draco.PEERS, *meshopt.PEERS, *gltf.PEERS, *skinning.PEERS)
+PEERS = (*plain.PEERS, *arrays.PEERS, *draco.PEERS, *meshopt.PEERS, *gltf.PEERS, *skinning.PEERS, *pca.PEERS)
 
 
 def find(name):

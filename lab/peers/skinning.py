@@ -105,5 +105,5 @@ PEERS = (Peer(
     name="skinning", title="skinning decomposition + zstd", source="lab/peers/ssdr.py, after Le and Deng (2012); Debian libzstd1",
     counts="rest pose, four bone numbers and three weights a vertex, a quaternion and a place a bone and frame, 16 bits each (bone numbers: "
            "8), as differences in byte planes under zstd -19; triangles likewise",
-    ladder=tuple({"bones": bones} for bones in (4, 8, 12, 16, 24, 32, 48, 64)),
+    ladder=tuple({"bones": bones} for bones in (4, 8, 16, 32, 64)),
     missing=lambda: stages.missing_library("zstd", "libzstd1"), encode=encode, decode=decode),)
