@@ -68,12 +68,25 @@ class Peers(unittest.TestCase):
         self.assertEqual([find(peer.name) for peer in PEERS], list(PEERS))
         self.assertRaises(PeerError, find, "nobody")
 
+    def test_the_page_of_the_peers_has_them_all(self):
+        with open(os.path.join(HERE, "../docs/peers.md"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertEqual([peer.name for peer in PEERS if f"`{peer.name}`" not in page], [])
+
     def test_every_peer_gives_back_every_vertex_and_triangle_in_order(self):
         def check(peer):
             _, positions, triangles = round_trip(peer, self.clip, peer.ladder[-1])
             size = float(numpy.ptp(self.clip.positions.reshape(-1, 3), axis=0).max())
             self.assertLess(float(numpy.abs(positions - self.clip.positions).max()), 0.02 * size)
             self.assertEqual(sorted_corners(triangles), sorted_corners(self.clip.triangles))
+        self.each(check)
+
+    def test_files_that_were_cut_off_are_an_error(self):
+        def check(peer):
+            with tempfile.TemporaryDirectory() as there, tempfile.TemporaryDirectory() as back:
+                run = peer.encode(self.clip, peer.ladder[0], there)
+                os.truncate(run.files[0], os.path.getsize(run.files[0]) // 2)
+                self.assertRaises(PeerError, peer.decode, run.files, back)
         self.each(check)
 
     def test_a_lossless_peer_gives_back_every_bit(self):
