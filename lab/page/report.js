@@ -129,6 +129,9 @@ function draw() {
   history.replaceState(null, "", "#" + new URLSearchParams({ ...now, hidden: [...hidden].join("|") }));
 }
 
+/// bits per frame and vertex: bpfv; % of the body diagonal: %.
+const shortUnit = (unit) => unit.startsWith("bits") ? "bpfv" : unit.startsWith("%") ? "%" : unit;
+
 function tip(curve, point) {
   const box = document.createElement("div"), table = document.createElement("table"), name = document.createElement("b");
   box.className = "tip";
@@ -136,13 +139,21 @@ function tip(curve, point) {
   for (const axis of facts.axes) {
     const line = table.insertRow();
     line.insertCell().textContent = axis.title;
-    line.insertCell().textContent = number(point.row[axis.key]) + (axis.unit && axis.unit.length < 6 ? " " + axis.unit : "");
+    line.insertCell().textContent = `${number(point.row[axis.key])} ${shortUnit(axis.unit ?? "")}`;
   }
   box.append(name, table);
   chart.append(box);
-  const left = point.x + 14 + box.offsetWidth > chart.clientWidth ? point.x - 14 - box.offsetWidth : point.x + 14;
-  box.style.left = `${Math.max(4, Math.min(left, chart.clientWidth - box.offsetWidth - 4))}px`;
-  box.style.top = `${Math.max(4, Math.min(point.y - box.offsetHeight / 2, chart.clientHeight - box.offsetHeight - 4))}px`;
+  place(box, point);
+}
+
+/// Beside the point, where there is room, else above or below it.
+function place(box, { x, y }) {
+  const { offsetWidth: width, offsetHeight: height } = box, gap = 14;
+  const right = x + gap + width <= chart.clientWidth, left = x - gap - width >= 0;
+  const across = right ? x + gap : left ? x - gap - width : x - width / 2;
+  const down = right || left ? y - height / 2 : y - gap - height >= 0 ? y - gap - height : y + gap;
+  box.style.left = `${Math.max(4, Math.min(across, chart.clientWidth - width - 4))}px`;
+  box.style.top = right || left ? `${Math.max(4, Math.min(down, chart.clientHeight - height - 4))}px` : `${down}px`;
 }
 
 /// Puts the cursor on a point, or takes it away.
@@ -234,7 +245,14 @@ function start() {
   chart.addEventListener("keydown", key);
   chart.addEventListener("blur", () => point(null, null));
   let width = chart.clientWidth;
-  new ResizeObserver(() => { if (chart.clientWidth !== width) { width = chart.clientWidth; cursor = null; draw(); } }).observe(chart);
+  new ResizeObserver(() => {
+    if (chart.clientWidth === width) return;
+    const kept = cursor;
+    width = chart.clientWidth;
+    cursor = null;
+    draw();
+    if (kept) point(kept.curve, kept.point);
+  }).observe(chart);
   draw();
 }
 start();
