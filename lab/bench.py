@@ -56,13 +56,16 @@ def wanted(options):
 def codecs_of(curves, command):
     """{coding's name: what encodes and decodes it}."""
     peers = {peer.name: peer for peer in codings.peers_here()}
-    return {coding.name: codings.PeerCodec(peers[coding.peer]) if coding.peer else codings.Codec(command) for coding in curves.codings}
+    of_build = lambda build: codings.Command(os.path.join(ROOT, build, "meshreel")) if build else command
+    return {coding.name: codings.PeerCodec(peers[coding.peer]) if coding.peer else codings.Codec(of_build(coding.build))
+            for coding in curves.codings}
 
 
-def made_by(options, command, codecs, checksums):
+def made_by(options, curves, codecs, checksums):
     lines = [f"commit {provenance.commit(ROOT)}", f"compiler {provenance.build(options.build)}", f"machine {provenance.machine()}",
              f"load {os.getloadavg()[2]:.1f}, the mean of the last 15 minutes; above the number of cores, times are too long",
-             f"meshreel sha256 {command.identity}"]
+             f"meshreel sha256 {provenance.digest(os.path.join(options.build, 'meshreel'))[:16]}"]
+    lines += [f"{coding.name}: meshreel of {coding.build}, sha256 {codecs[coding.name].identity}" for coding in curves.codings if coding.build]
     lines += [f"{codec.peer.name}: {codec.version}" for codec in codecs.values() if isinstance(codec, codings.PeerCodec)]
     return lines + [f"{name} sha256 {checksum[:16]}" for name, checksum in sorted(checksums.items())]
 
@@ -70,6 +73,11 @@ def made_by(options, command, codecs, checksums):
 def said(curves, options):
     """The plan, and what was left out of it."""
     return f"plan {curves.name}.toml, runs {curves.runs}" + (f", {options.points} points of each curve" if options.points else "")
+
+
+def rounded(row):
+    """Six digits say all that a measurement says."""
+    return {key: float(f"{value:.6g}") if isinstance(value, float) else value for key, value in row.items()}
 
 
 def draw(folder, curves, outcome):
@@ -98,7 +106,8 @@ def main(words=None):
     if not outcome.rows:
         print("nothing could be measured", file=sys.stderr)
         return 1
-    lines = made_by(options, command, codecs, sequences.checksums)
+    outcome.rows = [rounded(row) for row in outcome.rows]
+    lines = made_by(options, curves, codecs, sequences.checksums)
     places = [(out, out)] + ([(os.path.join(ROOT, "lab/results"), os.path.join(ROOT, "docs/figures"))] if options.keep else [])
     for tables, figures in places:
         write_csv(os.path.join(tables, curves.name + ".csv"), outcome.rows, [said(curves, options)] + lines)

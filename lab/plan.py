@@ -26,6 +26,7 @@ class Coding:
     name: str
     points: tuple  # dicts of all options of one file
     peer: str = ""
+    build: str = ""  # the build folder of another meshreel than the one that is asked for
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ def rows_of(plan):
 
 def points_of(settings, name):
     """The settings of each file of a curve: ladder.KNOB lists them, several knobs side by side."""
-    fixed = {knob: value for knob, value in settings.items() if knob not in ("ladder", "name")}
+    fixed = {knob: value for knob, value in settings.items() if knob not in ("ladder", "name", "build")}
     ladder = settings.get("ladder", {})
     if len({len(values) for values in ladder.values()}) > 1:
         raise PlanError(f"{name}: the knobs of a ladder need lists of one length")
@@ -81,7 +82,8 @@ def curves_of(plan, name, peers=()):
     if plan["measure"] != "curve":
         raise PlanError(f"measure is {plan['measure']}; only a plan of curves can be run alone, make figures runs the others")
     tables = [{**plan.get("common", {}), **coding} for coding in plan.get("coding", [])]
-    codings = [Coding(table.get("name", table.get("codec", "")), points_of(table, table.get("name"))) for table in tables]
+    codings = [Coding(table.get("name", table.get("codec", "")), points_of(table, table.get("name")), build=table.get("build", ""))
+               for table in tables]
     wanted, known = plan.get("peers", []), {peer.name: peer for peer in peers}
     for peer in known if wanted == ["all"] else wanted:
         if peer not in known:
