@@ -1,14 +1,18 @@
 """The codecs of meshreel and the peers behind one face: encode a clip, decode its files, each with its own seconds."""
 # SPDX-License-Identifier: MIT
+import hashlib
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import types
 from dataclasses import dataclass, field
+from functools import cached_property
 
+from clip import Clip
 from provenance import digest
 
 PEERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peers")
@@ -51,6 +55,17 @@ class Command:
         if done.returncode != 0:
             raise CodingError(done.stderr.strip() or f"meshreel {verb}: exit code {done.returncode}")
         return json.loads(done.stdout)
+
+    @cached_property
+    def measuring(self):
+        """What tells its measures from another build's: what they say of a small animation and its copy with noise. So a change of a
+        codec does not make all peers be measured again."""
+        with tempfile.TemporaryDirectory() as folder:
+            clip, noisy = Clip("", f"{folder}/a.obj", f"{folder}/a.pc2"), f"{folder}/b.pc2"
+            self("generate", "cloth", clip.motion, "--mesh", clip.mesh, "--vertices", 200, "--frames", 12)
+            self("distort", clip.motion, "--mesh", clip.mesh, noisy, "noise-vertex-frame", "--amount", "0.5%")
+            found = self("compare", clip.motion, noisy, "--mesh", clip.mesh)["metrics"]
+        return hashlib.sha256(json.dumps(found, sort_keys=True).encode()).hexdigest()[:16]
 
     def compare(self, clip, decoded, measures, order):
         """The values asked for, with their titles, units and directions."""

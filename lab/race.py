@@ -101,7 +101,7 @@ class Race:
 
     def turn_key(self, entrant, turn):
         """Times are of a turn; errors and sizes of the first."""
-        measures = [self.command.identity, *self.plan.measures] if turn == 0 else []
+        measures = [self.command.measuring, *self.plan.measures] if turn == 0 else []
         return key_of(entrant.key, turn, measures)
 
     def known(self, entrant, turn):

@@ -120,20 +120,20 @@ def delta_table(name, measure):
     return markdown([f"against {curves['anchor']}", *sequences, "mean"], lines)
 
 
-def level_table(name, measure, error, digits=2):
-    """Rate and decoding speed of a plan's codings at one error."""
+def level_table(name, measure, error):
+    """The rate of a plan's codings at one error."""
     rows = numbers(releases.read(name))
     found = verdicts.at_error(rows, measure, error)
     sequences = list(dict.fromkeys(row["sequence"] for row in rows))
-    cell = lambda key: f"{found[key][0]:.{digits}f} / {found[key][2]:.3g}" if key in found else "–"
+    cell = lambda key: f"{found[key][0]:.3f}" if key in found else "–"
     return markdown(["", *sequences], [[coding, *(cell((sequence, coding)) for sequence in sequences)]
                                        for coding in dict.fromkeys(row["coding"] for row in rows) if any(key[1] == coding for key in found)])
 
 
 def exact_table(name):
-    """Rate and decoding speed of what comes back bit for bit."""
+    """The rate of what comes back bit for bit."""
     rows = [row for row in numbers(releases.read(name)) if row["max_error_relative"] == 0]
-    by = {(row["coding"], row["sequence"]): f"{row['bpfv']:.2f} / {row['decode_mvs']:.3g}" for row in rows}
+    by = {(row["coding"], row["sequence"]): f"{row['bpfv']:.2f}" for row in rows}
     codings, sequences = (list(dict.fromkeys(row[key] for row in rows)) for key in ("coding", "sequence"))
     return markdown(["", *sequences], [[coding, *(by.get((coding, sequence), "–") for sequence in sequences)] for coding in codings])
 

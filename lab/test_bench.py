@@ -179,7 +179,7 @@ class Races(unittest.TestCase):
         both = tuple(plan.Coding(name, tuple({"bits": n, "of": name} for n in bits)) for name in "ab")
         curves = plan.Curves("p", "p", "a", 3, ("kg",), {"s": {}, "t": {}}, both)
         about = {"kg": {"value": 0.5, "title": "KG error", "unit": "%", "better": "less"}}
-        command = types.SimpleNamespace(identity="c", compare=lambda *_: about)
+        command = types.SimpleNamespace(measuring="c", compare=lambda *_: about)
         clip = types.SimpleNamespace(name="s", V=2, F=4)
         sequences = types.SimpleNamespace(find=lambda name, _: clip if name == "s" else None, checksums={"s": "1"})
         return race.Race(curves, command, sequences, Journal(os.path.join(folder, "j"))).run({name: Scribe(name, book) for name in "ab"})
@@ -258,6 +258,10 @@ class WholeRuns(unittest.TestCase):
         row = next(row for row in self.facts()["rows"] if row["coding"] == "reel" and "0.005" in row["setting"])
         self.assertEqual(row["bytes"], os.path.getsize(reel))
         self.assertEqual(f"{row['sted']:.6g}", f"{command.compare(clip, back, ['sted'], 'keep')['sted']['value']:.6g}")
+
+    def test_the_measures_of_one_build_are_told_by_one_name(self):
+        one, other = (codings.Command(os.path.join(BUILD, "meshreel")).measuring for _ in range(2))
+        self.assertEqual(one, other)
 
     def facts(self):
         with open(self.page, encoding="utf-8") as file:
