@@ -16,13 +16,10 @@ import meaning  # noqa: E402
 from coding import Damaged  # noqa: E402
 
 GOLDEN = HERE.parent / "tests" / "golden"
-BASES = {"reel_v1_base_cloth": "reel_v1_range"}
 
 
-def base_of(name):
-    if name not in BASES:
-        return None
-    file = container.read((GOLDEN / f"{BASES[name]}.reel").read_bytes())
+def mesh_of(name):
+    file = container.read((GOLDEN / f"{name}.reel").read_bytes())
     return file.V, file.topology.triangles
 
 
@@ -49,7 +46,8 @@ class Damage(unittest.TestCase):
 def same_as_golden(name):
     def test(self):
         expected = json.loads((GOLDEN / f"{name}.json").read_text())
-        found = meaning.of((GOLDEN / f"{name}.reel").read_bytes(), base_of(name))
+        base = mesh_of(expected.pop("base")) if "base" in expected else None
+        found = meaning.of((GOLDEN / f"{name}.reel").read_bytes(), base)
         if expected["vertices"] != expected["coded_vertices"]:
             expected["levels"] = []
         self.assertEqual(found, expected)

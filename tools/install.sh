@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs from Debian what is missing and asks nothing: for ./demo; --check: for ./check too; --with-blender: Blender for its tests;
-# --with-meshlab: MeshLab and a screen for it, for its tests and bench; --with-figures: what make figures draws with;
+# --with-foreign: other machines for make foreign; --with-meshlab: MeshLab and a screen for it, for its tests and bench; --with-figures: what make figures draws with;
 # --with-peers: what the lab compares meshreel with, from Debian and npm.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
@@ -23,9 +23,10 @@ for option in "$@"; do
         --check) want_check=yes; packages+=("${check_packages[@]}") ;;
         --with-blender) packages+=(blender python3-numpy) ;;
         --with-meshlab) packages+=(meshlab xvfb xauth libgl1-mesa-dri) ;;
+        --with-foreign) packages+=(g++-aarch64-linux-gnu g++-s390x-linux-gnu qemu-user) ;;
         --with-figures) packages+=(python3-matplotlib) ;;
         --with-peers) want_peers=yes; packages+=("${peer_packages[@]}") ;;
-        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-meshlab] [--with-figures] [--with-peers]" >&2; exit 1 ;;
+        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-meshlab] [--with-figures] [--with-foreign] [--with-peers]" >&2; exit 1 ;;
     esac
 done
 # Whoever has a Node of his own keeps it.

@@ -47,7 +47,8 @@ TEST_P(GoldenFile, DecodesToTheSameMeaningBitForBit)
     const std::optional<Animation> base = base_of(row);
     if (updating()) make(row, base ? &*base : nullptr);
     const std::string file = text_of(row.file());
-    const auto meaning = golden::meaning_of(bytes_of(file), base ? &*base : nullptr);
+    auto meaning = golden::meaning_of(bytes_of(file), base ? &*base : nullptr);
     ASSERT_TRUE(meaning.ok()) << meaning.error().sentence();
+    if (!row.base.empty()) (*meaning)["base"] = row.base;
     expect_file(row.meaning_file(), meaning->dump(1) + "\n");
 }

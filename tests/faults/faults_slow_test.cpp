@@ -1,0 +1,54 @@
+/// The same of every golden file: some of the truncations and bits, all of the fields.
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "tests/container/generated.h"
+#include "tests/faults/faults.h"
+
+using namespace meshreel;
+
+namespace {
+
+std::vector<std::string> golden_names()
+{
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(MESHREEL_SOURCE_DIR) + "/tests/golden"))
+        if (entry.path().extension() == ".reel") names.push_back(entry.path().stem());
+    std::ranges::sort(names);
+    return names;
+}
+
+class EveryGoldenFile : public testing::TestWithParam<std::string> {
+protected:
+    Bytes file() const
+    {
+        const std::string text = text_of("tests/golden/" + GetParam() + ".reel");
+        return {text.begin(), text.end()};
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Version1, EveryGoldenFile, testing::ValuesIn(golden_names()),
+                         [](const auto& row) { return row.param; });
+
+} // namespace
+
+TEST_P(EveryGoldenFile, SurvivesEveryKindOfFault)
+{
+    constexpr std::size_t some = 7, few = 61; // strides
+    const Bytes reel = file();
+    faults::Tally all;
+    for (const faults::Tally& one :
+         {faults::truncations(reel, some), faults::truncated_payloads(reel, few), faults::flipped_bits(reel, some),
+          faults::flipped_payload_bits(reel, few), faults::shuffled_chunks(reel), faults::wild_fields(reel)}) {
+        all.refused += one.refused;
+        all.valid += one.valid;
+        all.peak = std::max(all.peak, one.peak);
+        all.longest_s = std::max(all.longest_s, one.longest_s);
+    }
+    std::printf("%s: %llu tried, %llu refused, %llu valid; at most %zu kB, %.3f s\n", GetParam().c_str(),
+                static_cast<unsigned long long>(all.tried()), static_cast<unsigned long long>(all.refused),
+                static_cast<unsigned long long>(all.valid), all.peak / 1024, all.longest_s);
+}
