@@ -19,14 +19,10 @@ test:           ## the fast tests of a development build
 fuzz:           ## every fuzz target for a minute
 	tools/fuzz.sh 60
 
-<<<<<<< HEAD
-bench:          ## speeds and memory; KEEP=1: into docs/benchmarks.md
-=======
 foreign:        ## the golden files under other compilers, flags and machines (qemu-user)
 	tools/foreign/run.sh
 
-bench:          ## speeds and memory
->>>>>>> 750a5bf (Try systematic faults on a file of every codec, and golden files on foreign machines)
+bench:          ## speeds and memory; KEEP=1: into docs/benchmarks.md
 	cmake --preset bench
 	cmake --build build-bench
 	build-bench/bench/bench_sequences --csv build-bench/speeds.csv
