@@ -18,7 +18,9 @@ def styles(codings):
 
 
 def plain(axis):
-    axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    """Numbers as people write them; 1, 2 and 5 of a decade where there are few decades."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5) if high < 200 * low else (1,)))
     axis.set_major_formatter(ticker.FormatStrFormatter("%g"))
     axis.set_minor_formatter(ticker.NullFormatter())
 
@@ -44,10 +46,9 @@ def chart(rows, looks, x, y):
         panel.set(title=sequence, xscale="log", yscale="log", xlabel=x[1], ylabel=y[1])
         plain(panel.xaxis)
         plain(panel.yaxis)
-        panel.tick_params(axis="x", labelrotation=45, labelsize=8)
     handles = {label: handle for panel in panels.values() for handle, label in zip(*panel.get_legend_handles_labels())}
-    columns = min(4, len(handles))
-    height = figure.get_size_inches()[1]
+    width, height = figure.get_size_inches()
+    columns = max(1, min(int(width / 2.5), len(handles)))
     figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=columns, fontsize=9)
     figure.tight_layout(rect=(0, (0.15 + 0.2 * math.ceil(len(handles) / columns)) / height, 1, 1))
     return figure
