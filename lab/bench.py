@@ -19,6 +19,8 @@ from sequences import Sequences
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
+KEPT = ("kg", "sted")  # the curves that docs/figures has
+
 
 def arguments(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
@@ -80,14 +82,14 @@ def rounded(row):
     return {key: float(f"{value:.6g}") if isinstance(value, float) else value for key, value in row.items()}
 
 
-def draw(folder, curves, outcome):
+def draw(folder, curves, outcome, only=None):
     """SVG files by name; none, with a sentence, where matplotlib is missing."""
     try:
         from plots import draw_all
     except ImportError as error:
         outcome.skipped.append(f"the SVG curves: {error}; tools/install.sh --with-figures")
         return []
-    return draw_all(folder, curves, outcome)
+    return draw_all(folder, curves, outcome, only)
 
 
 def main(words=None):
@@ -108,10 +110,12 @@ def main(words=None):
         return 1
     outcome.rows = [rounded(row) for row in outcome.rows]
     lines = made_by(options, curves, codecs, sequences.checksums)
-    places = [(out, out)] + ([(os.path.join(ROOT, "lab/results"), os.path.join(ROOT, "docs/figures"))] if options.keep else [])
-    for tables, figures in places:
-        write_csv(os.path.join(tables, curves.name + ".csv"), outcome.rows, [said(curves, options)] + lines)
-        draw(figures, curves, outcome)
+    head = [said(curves, options)] + lines
+    write_csv(os.path.join(out, curves.name + ".csv"), outcome.rows, head)
+    draw(out, curves, outcome)
+    if options.keep:
+        write_csv(os.path.join(ROOT, "lab/results", curves.name + ".csv"), outcome.rows, head)
+        draw(os.path.join(ROOT, "docs/figures"), curves, outcome, KEPT)
     page = os.path.join(out, curves.name + ".html")
     report.write(page, report.facts(curves, outcome, codecs, lines))
     print(f"{page}: {len(outcome.rows)} files, {outcome.seconds / 60:.1f} minutes of work", file=sys.stderr)

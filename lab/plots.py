@@ -49,18 +49,23 @@ def chart(rows, looks, x, y):
     handles = {label: handle for panel in panels.values() for handle, label in zip(*panel.get_legend_handles_labels())}
     width, height = figure.get_size_inches()
     columns = max(1, min(int(width / 2.5), len(handles)))
+    below = 0.15 + 0.2 * math.ceil(len(handles) / columns)
+    figure.set_size_inches(width, height + below)
     figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=columns, fontsize=9)
-    figure.tight_layout(rect=(0, (0.15 + 0.2 * math.ceil(len(handles) / columns)) / height, 1, 1))
+    figure.tight_layout(rect=(0, below / (height + below), 1, 1))
     return figure
 
 
-def draw_all(folder, curves, outcome):
+def draw_all(folder, curves, outcome, only=None):
+    """SVG files named after the plan and what stands upwards; only: just these."""
     os.makedirs(folder, exist_ok=True)
     rate, looks = ("bpfv", "bits per frame and vertex"), styles(curves.codings)
     wanted = {name: (rate, (name, f"{about['title']}, {about['unit']}".rstrip(", "))) for name, about in outcome.about.items()}
     wanted |= {"decoding": (rate, ("decode_mvs", "decoding, M vertices/s")), "encoding": (rate, ("encode_mvs", "encoding, M vertices/s"))}
     paths = []
     for name, (x, y) in wanted.items():
+        if only and name not in only:
+            continue
         with rc_context(STYLE):
             figure = chart(outcome.rows, looks, x, y)
             paths.append(os.path.join(folder, f"{curves.name}-{name}.svg"))

@@ -62,7 +62,8 @@ def with_results(rows, known=None):
 def release_table(rows, known):
     """A row a sequence and target, a column a release."""
     rates = rates_by_key(rows)
-    keys = dict.fromkeys((row["sequence"], row["measure"], row["asked"]) for row in rows)
+    sequences = list(dict.fromkeys(row["sequence"] for row in rows))
+    keys = sorted({(row["sequence"], row["measure"], row["asked"]) for row in rows}, key=lambda key: (sequences.index(key[0]), *key[1:]))
     cells = lambda key: [f"{rates[release, *key]:.4f}" if (release, *key) in rates else "" for release in known]
     return markdown(["sequence", "at", *known], [[key[0], f"{key[1].upper()} {key[2]}{' %' if key[1] == 'kg' else ''}", *cells(key)] for key in keys])
 

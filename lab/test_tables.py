@@ -42,7 +42,7 @@ class Tables(unittest.TestCase):
                           "| cow | 0.400 | 0.960 | 0.500 | 1 : 100 | 1.200 |"])
 
     def test_rates_by_release_stand_side_by_side(self):
-        self.assertEqual(tables.release_table(ROWS, ["0.2.0", "0.1.0"])[2], "| cow | KG 0.5 % | 0.4000 | 0.5000 |")
+        self.assertEqual(tables.release_table(ROWS, ["0.2.0", "0.1.0"])[3], "| cow | KG 0.5 % | 0.4000 | 0.5000 |")
 
     def test_speeds_by_release_stand_side_by_side(self):
         rows = [{"release": release, "sequence": "cow", "encode": e, "decode": d} for release, e, d in (("2", "4", "40"), ("1", "3", "30"))]
