@@ -5,7 +5,9 @@ An interrupted run goes on where it was, by the same command."""
 # SPDX-License-Identifier: MIT
 import argparse
 import dataclasses
+import math
 import os
+import statistics
 import sys
 
 import codings
@@ -63,9 +65,10 @@ def codecs_of(curves, command):
             for coding in curves.codings}
 
 
-def made_by(options, curves, codecs, checksums):
+def made_by(options, race, codecs):
+    curves, checksums, loads = race.plan, race.sequences.checksums, race.outcome.loads
     lines = [f"commit {provenance.commit(ROOT)}", f"compiler {provenance.build(options.build)}", f"machine {provenance.machine()}",
-             f"load {os.getloadavg()[2]:.1f}, the mean of the last 15 minutes; above the number of cores, times are too long",
+             f"load {statistics.median(loads or [math.nan]):.1f}, the median while measuring; above the number of cores, times are too long",
              f"meshreel sha256 {provenance.digest(os.path.join(options.build, 'meshreel'))[:16]}"]
     lines += [f"{coding.name}: meshreel of {coding.build}, sha256 {codecs[coding.name].identity}" for coding in curves.codings if coding.build]
     lines += [f"{codec.peer.name}: {codec.version}" for codec in codecs.values() if isinstance(codec, codings.PeerCodec)]
@@ -109,7 +112,7 @@ def main(words=None):
         print("nothing could be measured", file=sys.stderr)
         return 1
     outcome.rows = [rounded(row) for row in outcome.rows]
-    lines = made_by(options, curves, codecs, sequences.checksums)
+    lines = made_by(options, race, codecs)
     head = [said(curves, options)] + lines
     write_csv(os.path.join(out, curves.name + ".csv"), outcome.rows, head)
     draw(out, curves, outcome)

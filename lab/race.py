@@ -1,5 +1,6 @@
 """Runs a plan of curves: every file of every coding, several times in turn, so that a drift of the machine hits all alike."""
 # SPDX-License-Identifier: MIT
+import os
 import shutil
 import statistics
 import sys
@@ -28,6 +29,7 @@ class Outcome:
     about: dict = field(default_factory=dict)    # measure: title, unit, better
     skipped: list = field(default_factory=list)  # sentences
     seconds: float = 0.0                         # of the work, with what was remembered
+    loads: list = field(default_factory=list)    # of the machine, at each measurement
 
 
 def label(point):
@@ -118,7 +120,7 @@ class Race:
             self.outcome.skipped.append(f"{entrant.clip.name}: {entrant.coding.name}, {label(entrant.point)}: "
                                         f"{error if isinstance(error, CodingError) else repr(error)}")
             return
-        record["wall_s"] = time.monotonic() - start
+        record |= {"wall_s": time.monotonic() - start, "load": os.getloadavg()[0]}
         self.journal.add(self.turn_key(entrant, turn), record)
 
     def made(self, entrant, turn):
@@ -138,6 +140,7 @@ class Race:
         records = [record for turn in range(self.plan.runs) if (record := self.known(entrant, turn))]
         first, clip = records[0], entrant.clip
         self.outcome.seconds += sum(record["wall_s"] for record in records)
+        self.outcome.loads += [record["load"] for record in records if "load" in record]
         if len({record["bytes"] for record in records}) > 1:
             self.outcome.skipped.append(f"{clip.name}: {entrant.coding.name}, {label(entrant.point)}: its size is not the same in every turn")
         self.outcome.about |= {name: {key: found[key] for key in ("title", "unit", "better")} for name, found in first["measures"].items()}
