@@ -53,6 +53,10 @@ def read(fields, file):
     rows = [words[i:i + a.components] for i in range(0, len(words), a.components)]
     a.values = [rows[p] for p in unpack.places] if repeated else rows
     a.indices = unpack.indices
+    if a.name in (b"material", b"group"):
+        names = len(file.materials if a.name == b"material" else file.groups)
+        if (a.domain, a.type, a.components) != (2, 3, 1) or any(names <= row[0] != NONE for row in a.values):
+            fields.refuse("values", "not the number of a name for each triangle", 0)
     return a
 
 

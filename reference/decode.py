@@ -31,5 +31,8 @@ def frames(file):
     parts = []
     for _, count, payload, at in file.segments:
         fields = container.Fields(payload, at, "SEGM")
-        parts.append(posed(file.codec, fields, file.topology, count).astype(numpy.float32))
+        with numpy.errstate(all="ignore"):
+            parts.append(posed(file.codec, fields, file.topology, count).astype(numpy.float32))
+        if not numpy.isfinite(parts[-1]).all():
+            fields.refuse("payload", "a position is not finite", 0)
     return numpy.concatenate(parts)[:, file.topology.surface_of, :]

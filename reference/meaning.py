@@ -35,7 +35,7 @@ def of_positions(positions):
 
 def of_attribute(a):
     width = attributes.WIDTHS[a.type]
-    return {"name": a.name.decode(), "domain": attributes.DOMAINS[a.domain], "type": attributes.TYPES[a.type],
+    return {"name": a.name.decode(errors="replace"), "domain": attributes.DOMAINS[a.domain], "type": attributes.TYPES[a.type],
             "components": a.components, "normalized": bool(a.normalized), "value_count": a.count,
             "values": digits(b"".join(w.to_bytes(width, "little") for row in a.values for w in row)),
             "indices": None if a.indices is None else words(a.indices)}
@@ -62,14 +62,14 @@ def of(data, base=None):
     file = container.read(data, base)
     positions = decode.frames(file)
     meta = dict(file.meta or {"name": b"", "loop": 0, "up": 0, "metres_per_unit": 0.0, "fps": 0.0})
-    meta["name"], meta["loop"] = meta["name"].decode(), bool(meta["loop"])
+    meta["name"], meta["loop"] = meta["name"].decode(errors="replace"), bool(meta["loop"])
     return {"codec": file.codec, "order": ("keep", "free", "base")[file.order], "vertices": file.V,
             "coded_vertices": file.W, "triangle_count": file.T, "frames": file.F,
             "triangles": of_triangles(file.topology.triangles), "positions": of_positions(positions),
             "times": digits(numpy.array(file.times).astype("<f8").tobytes()), "meta": meta,
-            "materials": [n.decode() for n in file.materials], "groups": [n.decode() for n in file.groups],
+            "materials": [n.decode(errors="replace") for n in file.materials], "groups": [n.decode(errors="replace") for n in file.groups],
             "attributes": [of_attribute(a) for a in file.attributes],
-            "assets": [{"name": a["name"].decode(), "mime_type": a["mime_type"].decode(), "size": len(a["data"]),
+            "assets": [{"name": a["name"].decode(errors="replace"), "mime_type": a["mime_type"].decode(errors="replace"), "size": len(a["data"]),
                         "bytes": digits(a["data"])} for a in file.assets],
             "levels": of_levels(file, positions)}
 

@@ -294,9 +294,9 @@ class Order:
 
 
 class AllOthers(Coded):
-    """The components from 3 on, of as many levels of detail as the payload has whole."""
+    """The components from 3 on, of the coarsest levels of detail, as many as `keep` says."""
 
-    def __init__(self, payload, first, energies):
+    def __init__(self, payload, first, energies, keep):
         at = payload.at + len(payload.basis_bits) + len(payload.first_bits)
         self.payload, K, W = payload, payload.K, payload.W
         n = payload.neighbours
@@ -304,10 +304,10 @@ class AllOthers(Coded):
         counts = self.order.counts()
         if len(counts) != len(payload.level_ends):
             payload.fields.refuse("levels", "another number of levels than its vertices make")
-        keep = sum(end <= len(payload.level_bits) for end in payload.level_ends)
-        if keep == 0:
-            payload.fields.refuse("level_bits", "ends too early")
+        keep = keep or len(counts)
         end = payload.level_ends[keep - 1]
+        if end > len(payload.level_bits):
+            payload.fields.refuse("level_bits", "ends too early")
         super().__init__(payload.level_bits[:end], at, "SEGM.level_bits", payload.contexts)
         self.relevance = [1.0] * K
         for k in range(3, K):
@@ -392,8 +392,8 @@ def basis_of(Y, payload):
     return [payload.origin[axis] + unit * row[axis] for axis in range(3) for row in Y], B, energies
 
 
-def open_payload(fields, topology, frames):
-    """(mean [3F], B [K][3F], C [W][K]) of a payload."""
+def open_payload(fields, topology, frames, keep=None):
+    """(mean [3F], B [K][3F], C [W][K]) of a payload. keep: how many levels of detail, the coarsest first; None: all."""
     payload = Payload(fields, frames, len(topology.surface.vertices))
     if payload.relax:
         fields.refuse("relax", "relaxation is not read yet")
@@ -402,7 +402,7 @@ def open_payload(fields, topology, frames):
     mean, B, energies = basis_of(Y, payload)
     if payload.K <= 3:
         return mean, B, first.C
-    return mean, B, AllOthers(payload, first, energies).C
+    return mean, B, AllOthers(payload, first, energies, keep).C
 
 
 def order_of(fields, topology, frames):

@@ -9,10 +9,14 @@ import sys
 import unittest
 from pathlib import Path
 
+import numpy
+
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import container  # noqa: E402
+import levels  # noqa: E402
 import meaning  # noqa: E402
+import reel  # noqa: E402
 from coding import Damaged  # noqa: E402
 
 GOLDEN = HERE.parent / "tests" / "golden"
@@ -25,6 +29,21 @@ def mesh_of(name):
 
 class GoldenFiles(unittest.TestCase):
     """A test a file, made below."""
+
+
+class Levels(unittest.TestCase):
+    def test_a_payload_that_ends_with_a_level_gives_that_level_bit_for_bit(self):
+        file = container.read((GOLDEN / "reel_v1_levels_cloth.reel").read_bytes())
+        _, count, payload, at = file.segments[0]
+        fields = container.Fields(payload, at, "SEGM")
+        whole = reel.Payload(container.Fields(payload, at, "SEGM"), count, file.W)
+        C = numpy.array(reel.open_payload(fields, file.topology, count)[2])
+        order = reel.order_of(container.Fields(payload, at, "SEGM"), file.topology, count)
+        for keep, end in enumerate(whole.level_ends[:-1], 1):
+            cut = payload[:len(payload) - len(whole.level_bits) + end]
+            part = reel.open_payload(container.Fields(cut, at, "SEGM"), file.topology, count, keep)
+            kept = levels.kept_of(order, len(whole.level_ends) - keep)
+            self.assertEqual(part[2][kept].tobytes(), C[kept].tobytes())
 
 
 class Damage(unittest.TestCase):

@@ -1,4 +1,5 @@
 /// golden_files FOLDER: decodes every golden file of a folder and compares what it means with what is written beside it.
+/// golden_files FILE...: a line for each, what it means or "refused: " and why.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
@@ -38,11 +39,22 @@ bool holds(const std::filesystem::path& file)
     return false;
 }
 
+void tell(const std::filesystem::path& file)
+{
+    const Result<golden::Json> found = golden::meaning_of(bytes_of(file), nullptr);
+    std::printf("%s\n", found.ok() ? found->dump(-1, ' ', false, golden::Json::error_handler_t::replace).c_str()
+                                   : ("refused: " + found.error().sentence()).c_str());
+}
+
 } // namespace
 
 int main(int count, char** words)
 {
-    if (count != 2) return 2;
+    if (count < 2) return 2;
+    if (!std::filesystem::is_directory(words[1])) {
+        std::for_each(words + 1, words + count, tell);
+        return 0;
+    }
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(words[1]))
         if (entry.path().extension() == ".reel") files.push_back(entry.path());

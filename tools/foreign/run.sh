@@ -43,7 +43,7 @@ sysroot() {
 objects() {
     local compiler=$1 flags=$2 folder=$3 root=$4 name
     local common=(-std=c++20 -ffp-contract=off -fno-math-errno -ffunction-sections -fdata-sections -DEIGEN_DONT_PARALLELIZE
-        -DEIGEN_MPL2_ONLY -DNDEBUG -w -I. -Isrc -isystem /usr/include/eigen3 -isystem "$out/headers")
+        -DEIGEN_MPL2_ONLY -DNDEBUG -w -Wno-psabi -I. -Isrc -isystem /usr/include/eigen3 -isystem "$out/headers")
     [ -z "$root" ] || common+=(-isystem "$root/usr/include")
     mkdir -p "$folder" "$out/headers"
     ln -sfn /usr/include/nlohmann "$out/headers/nlohmann"
