@@ -269,6 +269,25 @@ class RadialBasis(Average):
 PREDICTORS = {"na": Average, "lsp": LeastSquares, "rbfp": RadialBasis}
 
 
+class Runs:
+    """Who goes, by how many stay before the next that does."""
+
+    def __init__(self, coder):
+        self.coder, self.left = coder, None
+
+    def goes(self, _context):
+        if self.left is None:
+            self.left = self.coder.symbol(0)
+            if self.left > 15:
+                below = self.left - 12
+                self.left = 1 << below | self.coder.raw(below)
+        if self.left > 0:
+            self.left -= 1
+            return 0
+        self.left = None
+        return 1
+
+
 def open_payload(fields, codec, topology, frames):
     """(mean [3F], B [K][3F], C [W][K]) of a payload."""
     W = len(topology.surface.vertices)
@@ -300,9 +319,9 @@ def coefficients(codec, contexts, surface, sizes):
         residuals = Residuals(contexts, contexts.open([]), *sizes)
         residuals.extrapolate(surface.gates)
         return residuals.C
-    coder = contexts.open([2] * (72 if contexts.ranged else 1))
+    coder = contexts.open([2] * 72 if contexts.ranged else [43])
     levels = coder.raw(5)
-    decimation = Decimation(surface, levels, lambda context: coder.symbol(context if contexts.ranged else 0))
+    decimation = Decimation(surface, levels, coder.symbol if contexts.ranged else Runs(coder).goes)
     residuals = Residuals(contexts, coder, *sizes)
     residuals.extrapolate(decimation.gates)
     residuals.refine(decimation.rings, PREDICTORS[codec])

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "meshreel/connectivity/decimation.h"
@@ -49,7 +50,7 @@ Goes by(const Plan& plan)
 }
 
 /// A vertex is the worse the higher its number.
-double by_number(std::uint32_t v, std::span<const std::uint32_t>)
+double by_number(const Mesh&, std::uint32_t v, const Hole&)
 {
     return v;
 }
@@ -189,11 +190,48 @@ TEST(decimation_plan, takes_the_best_predicted_first_and_locks_its_neighbours)
     const Animation cloth = *shapes::generate(*shapes::find("wave"), {.vertices = 400, .frames = 1});
     const Surface surface = surface_of(cloth.vertex_count, cloth.triangles);
     const std::uint32_t best = 200;
-    const auto cost = [&](std::uint32_t v, std::span<const std::uint32_t>) { return v == best ? 0.0 : 1.0 + v; };
+    const auto cost = [&](const Mesh&, std::uint32_t v, const Hole&) { return v == best ? 0.0 : 1.0 + v; };
     const Plan plan = plan_decimation(surface, {}, cost);
     EXPECT_EQ(plan.level[best], 1);
     const Stars stars(400, surface.triangles);
     for (const Spoke& spoke : stars.spokes(best)) EXPECT_NE(plan.level[spoke.vertex], 1);
+}
+
+TEST(decimation_plan, keeps_whose_removal_is_too_dear)
+{
+    const Animation cloth = *shapes::generate(*shapes::find("wave"), {.vertices = 400, .frames = 1});
+    const Plan plan = plan_decimation(surface_of(400, cloth.triangles), {}, by_number, {.dearest = 99.0});
+    for (std::uint32_t v = 100; v < 400; ++v) EXPECT_EQ(plan.level[v], 0);
+    EXPECT_GT(plan.levels, 1);
+}
+
+TEST(decimation_plan, remembers_no_cost_that_has_changed)
+{
+    // The fewest edges round the ring, which change wherever a neighbour's triangles do.
+    const RemovalCost cost = [](const Mesh& mesh, std::uint32_t v, const Hole& hole) {
+        double sum = 1e-4 * v;
+        for (const std::uint32_t neighbour : hole.ring) sum += mesh.stars.degree(neighbour);
+        return sum;
+    };
+    for (const List& list : meshes()) {
+        const Surface surface = surface_of(list.vertex_count, list.triangles);
+        std::map<std::uint32_t, double> paid;
+        const auto noting = [&](const Mesh& mesh, std::uint32_t v, const Hole& hole) {
+            return paid[v] = cost(mesh, v, hole);
+        };
+        const Plan plan = plan_decimation(surface, {}, noting, {.coarse = 0.0});
+        Decimator mesh(surface);
+        Hole hole;
+        for (int level = 1; level <= plan.levels; ++level) {
+            for (std::uint32_t v = 0; v < list.vertex_count; ++v) {
+                if (plan.level[v] != level) continue;
+                ASSERT_TRUE(mesh.find_hole(v, hole));
+                EXPECT_EQ(paid[v], cost(mesh.mesh(), v, hole)) << list.name; // the last asked for: of when it went
+                mesh.remove(v, hole);
+            }
+            mesh.next_level();
+        }
+    }
 }
 
 TEST(decimation_plan, flips_no_normal_and_makes_no_sharp_triangle_in_the_first_frame)

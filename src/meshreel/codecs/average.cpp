@@ -9,7 +9,8 @@ namespace meshreel::codecs {
 
 Codec average()
 {
-    return pca_codec<study_decimated<predict::Average>, read_decimated<predict::Average>>(
+    return pca_codec<study_decimated<predict::Average, RemovalOrder::accuracy, RemovalOrder::price>,
+                     read_decimated<predict::Average>>(
         "na", "coarse mesh by Coddyac, the rest by the average of its neighbours (thesis 8.2)");
 }
 

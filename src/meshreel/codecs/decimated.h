@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "meshreel/codecs/entropy.h"
 #include "meshreel/codecs/pca_codec.h"
 #include "meshreel/codecs/refinement.h"
+#include "meshreel/codecs/removal_judge.h"
 #include "meshreel/connectivity/decimation.h"
 #include "meshreel/connectivity/decimation_plan.h"
 
@@ -30,40 +33,56 @@ struct Removals {
 /// What decimate() asks and a plan answers.
 Removals removals(const connectivity::Surface& surface, const connectivity::Plan& plan);
 
-/// How well a vertex is predicted from its ring, on unquantised coefficients; the smaller the better.
-/// The components that are judged, and the step that predictors are told, are those that a KG error of about 0.2 %
-/// would need: the plan must not depend on what is asked for.
-class RemovalJudge {
-public:
-    explicit RemovalJudge(MatrixView<const float> C);
-
-    /// The prediction error: the sum of what is missed of each component, which is what residuals cost.
-    template <class Predictor>
-    double cost(Predictor& predictor, std::uint32_t v, std::span<const std::uint32_t> ring)
-    {
-        predictor.start(ring.size());
-        double error = 0;
-        for (std::size_t k = components_; k-- > 0;) {
-            for (std::size_t i = 0; i < ring.size(); ++i) y_[i] = C_(ring[i], k);
-            const std::span<const double> y = std::span(y_).first(ring.size());
-            const double value = C_(v, k), miss = predictor.guess(y) - value;
-            predictor.learn(y, value);
-            error += miss < 0 ? -miss : miss;
-        }
-        return error;
-    }
-
-    double step() const { return step_; }
-
-private:
-    MatrixView<const float> C_;
-    std::size_t components_ = 0;
-    double step_ = 1.0;
-    std::array<double, connectivity::largest_ring> y_{};
-};
+constexpr std::uint32_t longest_plain_run = 15;
 
 /// Contexts of levels (coarsest mesh, then refinement, a row a component each) and of answers.
 coding::Contexts decimated_contexts(Entropy entropy, std::size_t bases);
+
+/// How many stay before the next that goes, for coders that take a bit at least for a symbol.
+template <class Coder>
+std::uint32_t code_run(Coder& coder, std::uint32_t run)
+{
+    const auto plain = static_cast<std::int32_t>(longest_plain_run);
+    const int least_width = coding::bit_width(longest_plain_run + 1);
+    const std::int32_t wanted =
+        run <= longest_plain_run ? static_cast<std::int32_t>(run) : plain + 1 + coding::bit_width(run) - least_width;
+    const std::int32_t symbol = coder.symbol(0, wanted);
+    if (symbol <= plain) return static_cast<std::uint32_t>(symbol);
+    const int below = symbol - plain - 1 + least_width - 1;
+    const std::uint32_t top = 1u << below;
+    return top | static_cast<std::uint32_t>(coder.bits(static_cast<std::int32_t>(run & (top - 1)), below));
+}
+
+/// Writes answers as runs.
+template <class Coder>
+void write_runs(Coder& coder, std::span<const Removals::Answer> answers)
+{
+    std::uint32_t run = 0;
+    for (const Removals::Answer& answer : answers) {
+        if (answer.goes) code_run(coder, run);
+        run = answer.goes ? 0 : run + 1;
+    }
+    if (run > 0) code_run(coder, run);
+}
+
+/// Reads what write_runs wrote, an answer at a time.
+template <class Coder>
+class RunReader {
+public:
+    explicit RunReader(Coder& coder) : coder_(coder) {}
+
+    bool goes()
+    {
+        if (!left_) left_ = code_run(coder_, 0);
+        if (*left_ > 0) return --*left_, false;
+        left_.reset();
+        return true;
+    }
+
+private:
+    Coder& coder_;
+    std::optional<std::uint32_t> left_; ///< that stay before the next that goes
+};
 
 /// Codes the number of levels and the answers; a reader decimates the surface by them.
 /// DEVIATES (8.2): at each level whether a vertex goes, of those that still may; not the level of every vertex.
@@ -71,15 +90,16 @@ template <class Coder>
 void code_removals(Coder& coder, Entropy entropy, const connectivity::Surface& surface,
                    std::conditional_t<Coder::writes, const Removals, Removals>& all)
 {
-    const std::uint32_t contexts = entropy == Entropy::range ? connectivity::removal_contexts : 1;
-    const auto code = [&](std::uint32_t context, bool goes) {
-        return coder.symbol(std::min(context, contexts - 1), goes ? 1 : 0) != 0;
-    };
     const int levels = coder.bits(all.levels, 5);
+    const bool runs = entropy == Entropy::huffman;
     if constexpr (Coder::writes) {
-        for (const Removals::Answer& answer : all.answers) code(answer.context, answer.goes);
+        if (runs) return write_runs(coder, all.answers);
+        for (const Removals::Answer& answer : all.answers) coder.symbol(answer.context, answer.goes ? 1 : 0);
     } else {
-        const auto goes = [&](std::uint32_t, std::uint32_t, std::uint32_t context) { return code(context, false); };
+        RunReader reader(coder);
+        const auto goes = [&](std::uint32_t, std::uint32_t, std::uint32_t context) {
+            return runs ? reader.goes() : coder.symbol(context, 0) != 0;
+        };
         all.decimation = connectivity::decimate(surface, levels, goes);
     }
 }
@@ -104,29 +124,44 @@ void code_decimated(Coder& coder, const PcaPayload& head, const connectivity::De
 template <class Predictor>
 class DecimatedWriter : public ResidualWriter {
 public:
-    DecimatedWriter(const Sequence& sequence, MatrixView<const float> C) : surface_(sequence.surface)
+    DecimatedWriter(const Sequence& sequence, MatrixView<const float> C, std::span<const RemovalOrder> orders)
+        : surface_(sequence.surface), ways_{removals(surface_, {})}
     {
         RemovalJudge judge(C);
         Predictor predictor(judge.step());
-        const auto cost = [&](std::uint32_t v, std::span<const std::uint32_t> ring) {
-            return judge.cost(predictor, v, ring);
-        };
-        all_ = removals(surface_, connectivity::plan_decimation(surface_, sequence.frames.row(0), cost));
-        none_ = removals(surface_, {});
+        for (const RemovalOrder order : orders) {
+            const bool priced = order == RemovalOrder::price;
+            const auto cost = [&](const connectivity::Mesh& mesh, std::uint32_t v, const connectivity::Hole& hole) {
+                return priced ? judge.price(predictor, mesh, v, hole) : judge.inaccuracy(predictor, v, hole.ring);
+            };
+            connectivity::PlanOptions options;
+            if (priced) options.dearest = dearest_removal * judge.usual_bits(surface_.gates);
+            const auto plan = connectivity::plan_decimation(surface_, sequence.frames.row(0), cost, options);
+            ways_.push_back(removals(surface_, plan));
+        }
     }
 
-    /// With all levels, or with none where that is smaller: a predictor may be worse than the parallelogram.
+    /// In the way that is smallest; without any levels where even that is larger than Coddyac.
     Bytes write(const PcaPayload& head, MatrixView<double> C) const override
     {
-        Matrix<double> plain(C.rows, C.cols);
-        std::copy_n(C.data, plain.values.size(), plain.values.begin());
-        Bytes bytes = write_with(all_, head, C), undecimated = write_with(none_, head, plain.view());
-        if (bytes.size() <= undecimated.size()) return bytes;
-        std::copy(plain.values.begin(), plain.values.end(), C.data);
-        return undecimated;
+        const std::vector<double> originals(C.data, C.data + C.rows * C.cols);
+        std::vector<double> decoded;
+        Bytes smallest;
+        for (const Removals& way : ways_) {
+            std::copy(originals.begin(), originals.end(), C.data);
+            Bytes bytes = write_with(way, head, C);
+            if (!decoded.empty() && bytes.size() > smallest.size()) continue;
+            smallest = std::move(bytes);
+            decoded.assign(C.data, C.data + originals.size());
+        }
+        std::copy(decoded.begin(), decoded.end(), C.data);
+        return smallest;
     }
 
 private:
+    /// Of what a vertex usually takes: a removal may spoil more parallelograms than it saves and pay at a later level.
+    static constexpr double dearest_removal = 0.8;
+
     Bytes write_with(const Removals& removals, const PcaPayload& head, MatrixView<double> C) const
     {
         return written(head.entropy, decimated_contexts(head.entropy, C.cols), [&](auto& coder) {
@@ -136,13 +171,13 @@ private:
     }
 
     const connectivity::Surface& surface_;
-    Removals all_, none_;
+    std::vector<Removals> ways_; ///< the first without levels
 };
 
-template <class Predictor>
+template <class Predictor, RemovalOrder... orders>
 std::unique_ptr<ResidualWriter> study_decimated(const Sequence& sequence, MatrixView<const float> C)
 {
-    return std::make_unique<DecimatedWriter<Predictor>>(sequence, C);
+    return std::make_unique<DecimatedWriter<Predictor>>(sequence, C, std::array{orders...});
 }
 
 template <class Predictor>

@@ -9,7 +9,7 @@ namespace meshreel::codecs {
 
 Codec lsp()
 {
-    return pca_codec<study_decimated<predict::Lsp>, read_decimated<predict::Lsp>>(
+    return pca_codec<study_decimated<predict::Lsp, RemovalOrder::accuracy>, read_decimated<predict::Lsp>>(
         "lsp", "coarse mesh by Coddyac, the rest by least squares of its neighbours (thesis 8.3.1)");
 }
 

@@ -9,7 +9,7 @@ namespace meshreel::codecs {
 
 Codec rbfp()
 {
-    return pca_codec<study_decimated<predict::Rbf>, read_decimated<predict::Rbf>>(
+    return pca_codec<study_decimated<predict::Rbf, RemovalOrder::accuracy>, read_decimated<predict::Rbf>>(
         "rbfp", "coarse mesh by Coddyac, the rest by radial basis functions (thesis 8.3.2)");
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "meshreel/connectivity/decimation.h"
 
@@ -81,17 +82,58 @@ struct Candidate {
     }
 };
 
-/// Everyone who may go, the best predicted first; the worst predicted are left out.
-std::vector<Candidate> queue_of(const Decimator& mesh, const RemovalCost& cost, double considered)
-{
-    std::vector<Candidate> queue;
-    Hole hole;
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-        if (mesh.live(v) && mesh.find_hole(v, hole)) queue.push_back({cost(v, hole.ring), v});
-    std::sort(queue.begin(), queue.end());
-    queue.resize(static_cast<std::size_t>(std::ceil(considered * static_cast<double>(queue.size()))));
-    return queue;
-}
+/// What the removal of every vertex costs, kept from level to level where nothing nearby has changed.
+class Costs {
+public:
+    Costs(std::uint32_t vertex_count, const RemovalCost& cost)
+        : cost_(cost), known_(vertex_count), changed_(vertex_count, 1)
+    {
+    }
+
+    /// Everyone who may go, the cheapest first; the dearest are left out.
+    std::vector<Candidate> queue(const Decimator& mesh, const PlanOptions& options)
+    {
+        std::vector<Candidate> queue;
+        for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+            if (!mesh.live(v)) continue;
+            if (stale(mesh.mesh(), v)) renew(mesh, v);
+            if (known_[v] != never) queue.push_back({known_[v], v});
+        }
+        std::sort(queue.begin(), queue.end());
+        queue.resize(static_cast<std::size_t>(std::ceil(options.considered * static_cast<double>(queue.size()))));
+        const auto dear = [&](const Candidate& candidate) { return candidate.cost > options.dearest; };
+        queue.erase(std::find_if(queue.begin(), queue.end(), dear), queue.end());
+        std::fill(changed_.begin(), changed_.end(), std::uint8_t{0});
+        return queue;
+    }
+
+    /// Triangles of these change at the level's end.
+    void change(std::span<const std::uint32_t> ring)
+    {
+        for (const std::uint32_t v : ring) changed_[v] = 1;
+    }
+
+private:
+    static constexpr double never = std::numeric_limits<double>::infinity();
+
+    /// Triangles of v or of a neighbour are new: where they went, v has lost a neighbour or has changed itself.
+    bool stale(const Mesh& mesh, std::uint32_t v) const
+    {
+        const std::span<const Spoke> spokes = mesh.stars.spokes(v);
+        return changed_[v] != 0 || std::any_of(spokes.begin(), spokes.end(),
+                                               [&](const Spoke& spoke) { return changed_[spoke.vertex] != 0; });
+    }
+
+    void renew(const Decimator& mesh, std::uint32_t v)
+    {
+        known_[v] = mesh.find_hole(v, hole_) ? cost_(mesh.mesh(), v, hole_) : never;
+    }
+
+    const RemovalCost& cost_;
+    std::vector<double> known_; ///< never: may not go
+    std::vector<std::uint8_t> changed_;
+    Hole hole_;
+};
 
 } // namespace
 
@@ -100,16 +142,18 @@ Plan plan_decimation(const Surface& surface, std::span<const float> first_frame,
 {
     const Shape shape(first_frame, options.sharpest_angle);
     Decimator mesh(surface);
+    Costs costs(surface.vertex_count, cost);
+    Hole hole;
     Plan plan{0, std::vector<std::uint8_t>(surface.vertex_count)};
     const double wanted = options.coarse * surface.vertex_count;
     while (plan.levels < most_levels && mesh.live_count() >= wanted) {
         const std::uint32_t before = mesh.live_count();
-        Hole hole;
-        for (const Candidate& candidate : queue_of(mesh, cost, options.considered)) {
+        for (const Candidate& candidate : costs.queue(mesh, options)) {
             const std::uint32_t v = candidate.vertex;
             if (!mesh.unlocked(v) || !mesh.find_hole(v, hole) || !mesh.may_go(v, hole)) continue;
             if (!shape.keeps(mesh.mesh(), v, hole)) continue;
             mesh.remove(v, hole);
+            costs.change(hole.ring);
             plan.level[v] = static_cast<std::uint8_t>(plan.levels + 1);
         }
         if (mesh.live_count() == before) break;
