@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz foreign bench bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces figures format docs clean
+.PHONY: build demo check test fuzz foreign bench bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -56,6 +56,10 @@ bench-surfaces: build ## distances of surfaces beside MeshLab (tools/install.sh 
 
 bench-rate: build   ## rates at given errors beside what they must be; the README's table
 	bench/rate.py --keep && lab/tables.py
+
+wasm:           ## the decoder for JavaScript into js/dist (tools/install.sh --with-wasm)
+	wasm/build.sh
+	node js/build.mjs
 
 figures:        ## the thesis' tables and figures, measured: docs/thesis-figures.md; DATA=FOLDER where the sequences are elsewhere
 	tools/install.sh --with-figures

@@ -11,7 +11,7 @@ from collections import defaultdict
 
 CODE = (".h", ".cpp", ".inl")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
-FOLDERS = ("src/meshreel", "cli", "bindings", "lab", "bench", "tests", "fuzz")
+FOLDERS = ("src/meshreel", "cli", "bindings", "wasm", "lab", "bench", "tests", "fuzz")
 MACHINE_PATH = re.compile(r"/(?:home|root|Users)/[a-z]|/tmp/[a-z]{2,}/|/wor[k]/")
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs from Debian what is missing and asks nothing: for ./demo; --check: for ./check too; --with-blender: Blender for its tests;
 # --with-foreign: other machines for make foreign; --with-meshlab: MeshLab and a screen for it, for its tests and bench; --with-figures: what make figures draws with;
-# --with-peers: what the lab compares meshreel with, from Debian and npm.
+# --with-wasm: Emscripten, Chromium and what js/ is tested with; --with-peers: what the lab compares meshreel with, from Debian and npm.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 
@@ -17,7 +17,7 @@ check_packages=(
 peer_packages=(draco libdraco-dev libzfp1 libfpzip1 libzstd1 zstd xz-utils python3-numpy)
 gltf_validator=2.0.0-dev.3.10
 
-want_check=no want_peers=no
+want_check=no want_peers=no want_wasm=no
 for option in "$@"; do
     case $option in
         --check) want_check=yes; packages+=("${check_packages[@]}") ;;
@@ -25,12 +25,13 @@ for option in "$@"; do
         --with-meshlab) packages+=(meshlab xvfb xauth libgl1-mesa-dri) ;;
         --with-foreign) packages+=(g++-aarch64-linux-gnu g++-s390x-linux-gnu qemu-user) ;;
         --with-figures) packages+=(python3-matplotlib) ;;
+        --with-wasm) want_wasm=yes; packages+=(emscripten chromium) ;;
         --with-peers) want_peers=yes; packages+=("${peer_packages[@]}") ;;
-        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-meshlab] [--with-figures] [--with-foreign] [--with-peers]" >&2; exit 1 ;;
+        *) echo "usage: tools/install.sh [--check] [--with-blender] [--with-meshlab] [--with-figures] [--with-foreign] [--with-wasm] [--with-peers]" >&2; exit 1 ;;
     esac
 done
 # Whoever has a Node of his own keeps it.
-if [ $want_check = yes ] || [ $want_peers = yes ]; then
+if [ $want_check = yes ] || [ $want_peers = yes ] || [ $want_wasm = yes ]; then
     command -v node >/dev/null || packages+=(nodejs)
     command -v npm >/dev/null || packages+=(npm)
 fi
@@ -57,4 +58,8 @@ fi
 
 if [ $want_peers = yes ]; then
     npm ci --prefix "$root/lab/peers" --no-audit --no-fund --loglevel=error >&2
+fi
+
+if [ $want_wasm = yes ] && [ ! -d "$root/js/node_modules/playwright-core" ]; then
+    npm install --prefix "$root/js" --no-package-lock --no-audit --no-fund --loglevel=error >&2
 fi

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
+
+#ifndef MESHREEL_DECODER_ALONE
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
+#endif
 
 namespace meshreel {
 
@@ -16,9 +19,27 @@ namespace meshreel {
 struct Threads {
     unsigned count = 0;
 
-    unsigned used() const { return count != 0 ? count : std::max(1u, std::thread::hardware_concurrency()); }
+#ifdef MESHREEL_DECODER_ALONE
+    unsigned used() const
+    {
+        return 1;
+    }
+#else
+    unsigned used() const
+    {
+        return count != 0 ? count : std::max(1u, std::thread::hardware_concurrency());
+    }
+#endif
 };
 
+#ifdef MESHREEL_DECODER_ALONE
+/// The decoder in a browser: one thread, no exceptions.
+template <class Body>
+void parallel_for(std::size_t count, Threads /*threads*/, const Body& body)
+{
+    for (std::size_t i = 0; i < count; ++i) body(i);
+}
+#else
 /// Runs body(i) for i = 0 .. count-1, in any order. Results must not depend on the order: each i writes its own place.
 /// An exception of the body is rethrown here once all threads have stopped.
 template <class Body>
@@ -47,5 +68,6 @@ void parallel_for(std::size_t count, Threads threads, const Body& body)
     for (std::thread& thread : pool) thread.join();
     if (failure) std::rethrow_exception(failure);
 }
+#endif
 
 } // namespace meshreel

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
-#include <variant>
 
 namespace meshreel {
 
@@ -40,30 +40,75 @@ struct Error {
 
 struct Ok {};
 
+} // namespace meshreel
+
+#ifdef MESHREEL_DECODER_ALONE
+#include "meshreel/base/raised.h"
+#else
+namespace meshreel {
+
+/// An Error in a box: a Result is small, and what goes wrong costs no code where it is passed on.
+class Failure {
+public:
+    Failure() = default; ///< none
+    Failure(Error error);
+    Failure(const Failure& other);
+    Failure(Failure&& other) noexcept : error_(std::exchange(other.error_, nullptr)) {}
+    Failure& operator=(Failure other) noexcept
+    {
+        std::swap(error_, other.error_);
+        return *this;
+    }
+    ~Failure()
+    {
+        if (error_ != nullptr) discard();
+    }
+
+    Error& operator*() const { return *error_; }
+    operator Error() const& { return *error_; }
+    operator Error() && { return std::move(*error_); }
+
+private:
+    void discard();
+
+    Error* error_ = nullptr;
+};
+
 /// Either a T or an Error; test before use.
 template <class T>
 class [[nodiscard]] Result {
 public:
     using Value = T;
 
-    Result(T value) : content_(std::move(value)) {}
-    Result(Error error) : content_(std::move(error)) {}
+    Result(T value) : value_(std::move(value)) {}
+    Result(Failure failure) : failure_(std::move(failure)) {}
+    Result(Error error) : failure_(std::move(error)) {}
 
-    bool ok() const { return content_.index() == 0; }
+    bool ok() const { return value_.has_value(); }
     explicit operator bool() const { return ok(); }
 
-    T& operator*() & { return std::get<0>(content_); }
-    const T& operator*() const& { return std::get<0>(content_); }
-    T&& operator*() && { return std::get<0>(std::move(content_)); }
-    T* operator->() { return &std::get<0>(content_); }
-    const T* operator->() const { return &std::get<0>(content_); }
+    T& operator*() & { return *value_; }
+    const T& operator*() const& { return *value_; }
+    T&& operator*() && { return *std::move(value_); }
+    T* operator->() { return &*value_; }
+    const T* operator->() const { return &*value_; }
 
-    const Error& error() const& { return std::get<1>(content_); }
-    Error&& error() && { return std::get<1>(std::move(content_)); }
+    const Error& error() const& { return *failure_; }
+    Error&& error() && { return std::move(*failure_); }
+    Failure&& failure() && { return std::move(failure_); }
 
 private:
-    std::variant<T, Error> content_;
+    std::optional<T> value_; ///< none: an error
+    Failure failure_;
 };
+
+Failure bad_input(std::string_view message, std::string_view field = {}, std::optional<Place> place = {});
+Failure unsupported(std::string_view message, std::string_view field = {});
+
+} // namespace meshreel
+#endif
+
+namespace meshreel {
 
 using Status = Result<Ok>;
 
@@ -77,14 +122,6 @@ Result<T> in_file(Result<T> result, const std::string& file)
     return error;
 }
 
-inline Error bad_input(std::string message, std::string field = {}, std::optional<Place> place = {})
-{
-    return {ErrorCode::bad_input, std::move(message), std::move(field), {}, place};
-}
-inline Error unsupported(std::string message, std::string field = {})
-{
-    return {ErrorCode::unsupported, std::move(message), std::move(field), {}, {}};
-}
 inline Place at_byte(std::uint64_t offset)
 {
     return {Place::Unit::byte, offset};
@@ -102,12 +139,12 @@ inline Place at_line(std::uint64_t line)
 /// MESHREEL_TRY(auto mesh, read_mesh(bytes)): declares mesh, or returns the error from the enclosing function.
 #define MESHREEL_TRY(declaration, expression)                                                                          \
     auto MESHREEL_JOIN(result_, __LINE__) = (expression);                                                              \
-    if (!MESHREEL_JOIN(result_, __LINE__).ok()) return std::move(MESHREEL_JOIN(result_, __LINE__)).error();            \
+    if (!MESHREEL_JOIN(result_, __LINE__).ok()) return std::move(MESHREEL_JOIN(result_, __LINE__)).failure();          \
     declaration = *std::move(MESHREEL_JOIN(result_, __LINE__))
 
 /// MESHREEL_CHECK(status): goes on, or returns the error from the enclosing function.
 #define MESHREEL_CHECK(expression)                                                                                     \
     do {                                                                                                               \
         auto meshreel_status = (expression);                                                                           \
-        if (!meshreel_status.ok()) return std::move(meshreel_status).error();                                          \
+        if (!meshreel_status.ok()) return std::move(meshreel_status).failure();                                        \
     } while (false)

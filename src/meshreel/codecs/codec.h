@@ -59,6 +59,17 @@ struct Coded {
     std::optional<std::span<const std::uint32_t>> wanted = {};
 };
 
+/// A function that decoding does without: null where the decoder is built alone (wasm/), so that nothing of it is linked.
+template <class Function>
+constexpr Function* encoder_side([[maybe_unused]] Function* function)
+{
+#ifdef MESHREEL_DECODER_ALONE
+    return nullptr;
+#else
+    return function;
+#endif
+}
+
 /// One row of the registry.
 struct Codec {
     std::string_view name; ///< as in --codec, and in the file's header

@@ -22,7 +22,7 @@ Status at_part(Status status, const container::Source& source, ByteView part, st
 {
     if (status.ok()) return status;
     Error error = std::move(status).error();
-    error.field = concat(source.name, ".", field);
+    error.field = joined(source.name, ".", field);
     error.place = at_byte(source.offset + static_cast<std::uint64_t>(part.data() - source.bytes.data()));
     return error;
 }

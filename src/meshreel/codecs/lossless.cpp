@@ -255,7 +255,7 @@ Status read_lossless(const Coded& coded, MatrixView<float> frames)
     walk_frames(strands, guess ? &*guess : nullptr, frames, coded.threads);
     for (std::size_t c = 0; c < 3; ++c)
         MESHREEL_CHECK(at_part(complete(strands[c]->core), source, payload.coordinates[c].bits,
-                               concat(std::string_view("xyz").substr(c, 1), ".bits")));
+                               joined(std::string_view("xyz").substr(c, 1), ".bits")));
     return Ok{};
 }
 
@@ -272,9 +272,12 @@ Status explain_lossless(const container::Source& source, const DecodeLimits& lim
 
 Codec lossless()
 {
-    return {"lossless",       "every float32 exactly as it was; another codec makes the guess",
-            prepare_lossless, nullptr,
-            explain_lossless, read_lossless};
+    return {"lossless",
+            "every float32 exactly as it was; another codec makes the guess",
+            encoder_side(prepare_lossless),
+            nullptr,
+            encoder_side(explain_lossless),
+            read_lossless};
 }
 
 } // namespace meshreel::codecs

@@ -62,7 +62,8 @@ Codec pca_codec(std::string_view name, std::string_view summary)
     const auto prepare = [](const Sequence& sequence, std::size_t max_bases, Threads threads) {
         return prepare_pca(sequence, max_bases, threads, study);
     };
-    return {name, summary, prepare, [](const Coded& coded) { return open_pca(coded, read); }, explain_pca};
+    return {name, summary, encoder_side(+prepare), [](const Coded& coded) { return open_pca(coded, read); },
+            encoder_side(explain_pca)};
 }
 
 } // namespace meshreel::codecs

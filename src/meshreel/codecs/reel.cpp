@@ -425,10 +425,14 @@ Status explain_reel(const container::Source& source, const DecodeLimits& limits,
 
 Codec reel()
 {
-    return {"reel",       "PCA of trajectories, kriging from coarse to fine over vertices and over poses",
-            prepare_reel, open_reel,
-            explain_reel, nullptr,
-            detail_reel,  level_bytes_reel};
+    return {"reel",
+            "PCA of trajectories, kriging from coarse to fine over vertices and over poses",
+            encoder_side(prepare_reel),
+            open_reel,
+            encoder_side(explain_reel),
+            nullptr,
+            detail_reel,
+            level_bytes_reel};
 }
 
 } // namespace meshreel::codecs

@@ -15,7 +15,11 @@ namespace meshreel::codecs {
 
 std::span<const Codec> all()
 {
+#ifdef MESHREEL_REEL_ALONE
+    static const std::array rows{reel()};
+#else
     static const std::array rows{reel(), coddyac(), average(), lsp(), rbfp(), lossless()}; // exact ones last
+#endif
     return rows;
 }
 

@@ -3,6 +3,7 @@
 #include "meshreel/codecs/trajectories.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "meshreel/base/wide.h"
 
@@ -70,7 +71,27 @@ void mix_trajectory(std::span<const double> from, const Mixes& mixes, std::span<
         }
 }
 
+constexpr double most_position = 1e36; // mixes of frames overshoot by 64 at most: float32 holds them
+
+/// The largest of some numbers without their signs; no number where one of them is none.
+double largest(std::span<const double> numbers)
+{
+    double most = 0.0;
+    for (const double x : numbers)
+        if (!(std::abs(x) <= most) && most == most) most = std::abs(x);
+    return most;
+}
+
 } // namespace
+
+bool float_holds(const Trajectories& trajectories)
+{
+    const auto& [mean, rows] = trajectories.basis;
+    const double coefficient = largest(trajectories.C.values);
+    double bound = largest(mean);
+    for (std::size_t k = 0; k < rows.rows; ++k) bound += coefficient * largest(rows.row(k));
+    return coefficient <= most_position && largest(rows.values) <= most_position && bound <= most_position;
+}
 
 void rebuild(const Trajectories& trajectories, MatrixView<float> frames, Threads threads)
 {

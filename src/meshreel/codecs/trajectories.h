@@ -15,6 +15,9 @@ struct Trajectories {
     Matrix<double> C; ///< coefficients [W x K]
 };
 
+/// Whether all that is made of them stays within float32, mixes of frames too.
+bool float_holds(const Trajectories& trajectories);
+
 /// t = m + sum_k c_k B_k for every vertex, k rising, in double, rounded once to float32: the same on every machine.
 /// frames [F x 3W].
 /// @cost O(W F K).  @source thesis (8.2)

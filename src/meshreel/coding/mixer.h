@@ -17,7 +17,10 @@ struct LogOddsTables {
     std::array<std::uint16_t, 2 * largest + 1> probability{};
     std::array<std::int16_t, 4096> odds{};
 
-    constexpr LogOddsTables()
+#ifndef MESHREEL_DECODER_ALONE
+    constexpr // where it is alone it makes them when it starts: that takes no room in its file
+#endif
+        LogOddsTables()
     {
         constexpr double step = 1.00391388933834757; // e^(1/256)
         double power = 1.0;
@@ -48,7 +51,11 @@ public:
     }
 
 private:
+#ifdef MESHREEL_DECODER_ALONE
+    static inline const LogOddsTables& tables = *new LogOddsTables;
+#else
     static constexpr LogOddsTables tables{};
+#endif
 };
 
 /// Weights of `count` estimates.

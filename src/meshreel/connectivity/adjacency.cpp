@@ -38,8 +38,8 @@ EdgeTable edges_of(std::uint32_t vertex_count, std::span<const Triangle> triangl
     std::vector<std::uint32_t> end(table.begin.begin(), table.begin.end() - 1);
     each_edge([&](std::uint32_t smaller, Side side) { table.sides[end[smaller]++] = side; });
     for (std::uint32_t v = 0; v < vertex_count; ++v)
-        std::sort(
-            table.sides.begin() + table.begin[v], table.sides.begin() + table.begin[v + 1],
+        std::ranges::sort(
+            std::span(table.sides).subspan(table.begin[v], table.begin[v + 1] - table.begin[v]),
             [](const Side& a, const Side& b) { return std::pair(a.larger, a.half) < std::pair(b.larger, b.half); });
     return table;
 }

@@ -108,7 +108,7 @@ void Decimator::next_level()
         return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return !live(v); });
     };
     triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), removed), triangles_.end());
-    std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) { return a.vertex < b.vertex; });
+    std::ranges::sort(patches_, [](const Patch& a, const Patch& b) { return a.vertex < b.vertex; });
     for (const Patch& patch : patches_)
         triangles_.insert(triangles_.end(), patch.triangles.begin(), patch.triangles.end());
     patches_.clear();

@@ -34,7 +34,7 @@ void Stars::collect_spokes(std::span<const Triangle> triangles)
         for (std::uint32_t t : this->triangles(v))
             for (std::uint32_t other : triangles[t])
                 if (other != v && !degenerate(triangles[t])) others.push_back(other);
-        std::sort(others.begin(), others.end());
+        std::ranges::sort(others);
         const std::size_t first = spokes_.size();
         for (std::uint32_t other : others) {
             if (spokes_.size() == first || spokes_.back().vertex != other) spokes_.push_back({other, 0});

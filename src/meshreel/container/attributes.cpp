@@ -115,7 +115,7 @@ Result<T> under(std::string_view name, Result<T> result)
 {
     if (result.ok()) return result;
     Error error = std::move(result).error();
-    error.field = concat(name, ".", error.field);
+    error.field = joined(name, ".", error.field);
     return error;
 }
 

@@ -60,11 +60,20 @@ inline constexpr RealRange finite{};
 inline constexpr RealRange not_negative{0.0};
 inline constexpr RealRange positive{std::numeric_limits<double>::denorm_min()};
 
+#ifndef MESHREEL_DECODER_ALONE
+using Meaning = std::string_view;
+#else // nobody asks, so no text need be kept
+struct Meaning {
+    constexpr Meaning() = default;
+    constexpr Meaning(std::string_view) {}
+};
+#endif
+
 /// All that is known of a field beside its value.
 struct Field {
     std::string_view name;
     Encoding encoding = Encoding::u8;
-    std::string_view meaning;
+    Meaning meaning;
     Range range = {};
     RealRange real = {};
     SignedRange whole = {};

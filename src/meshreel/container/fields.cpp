@@ -141,7 +141,8 @@ double Writer::real(const Field& field, double value)
 
 ByteView Writer::bytes(const Field& field, ByteView value)
 {
-    if (std::string wrong = complaint(field, value.size()); !wrong.empty()) fail(field.name, "its length " + wrong);
+    if (std::string wrong = complaint(field, std::uint64_t{value.size()}); !wrong.empty())
+        fail(field.name, "its length " + wrong);
     if (has_length(field.encoding)) put_varint(bytes_, value.size());
     bytes_.insert(bytes_.end(), value.begin(), value.end());
     return value;
@@ -174,10 +175,10 @@ std::string Reader::full_name(std::string_view name) const
 {
     std::string all = source_.name;
     for (const Step& step : path_) {
-        all += concat(".", step.name);
-        if (step.index != no_index) all += concat("[", step.index, "]");
+        all += joined(".", step.name);
+        if (step.index != no_index) all += joined("[", step.index, "]");
     }
-    return concat(all, all.empty() || name.empty() ? "" : ".", name);
+    return joined(all, all.empty() || name.empty() ? "" : ".", name);
 }
 
 void Reader::enter(std::string_view name, std::uint64_t index)

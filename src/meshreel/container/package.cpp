@@ -15,7 +15,7 @@ Result<T> in_chunk(Result<T> result, const Chunk& chunk)
     if (result.ok()) return result;
     Error error = std::move(result).error();
     if (!error.place) error.place = at_byte(chunk.offset);
-    if (error.field.rfind(name_of(chunk.type), 0) != 0) error.field = concat(name_of(chunk.type), ".", error.field);
+    if (error.field.rfind(name_of(chunk.type), 0) != 0) error.field = joined(name_of(chunk.type), ".", error.field);
     return error;
 }
 

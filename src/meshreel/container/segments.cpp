@@ -35,7 +35,8 @@ namespace {
 constexpr std::uint64_t longest_segment_head = 4 + 10 + 5 + 5; // type, size, first_frame, frame_count
 constexpr std::uint64_t payload_head = 256;
 
-/// A segment from the first bytes of its chunk, its payload as far as they go.
+} // namespace
+
 Result<Segment> beginning_of(const Index::Entry& entry, ByteView bytes, const DecodeLimits& limits)
 {
     Reader reader({bytes, entry.offset, name_of(entry.type)}, limits);
@@ -47,8 +48,6 @@ Result<Segment> beginning_of(const Index::Entry& entry, ByteView bytes, const De
     segment.payload_offset = entry.offset + static_cast<std::uint64_t>(segment.payload.data() - bytes.data());
     return segment;
 }
-
-} // namespace
 
 /// The numbers of segment s, from its first bytes; its checksum waits until all of it is fetched.
 Result<Segment> SegmentFetcher::look(std::size_t s)

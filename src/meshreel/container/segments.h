@@ -30,6 +30,9 @@ private:
     std::vector<Segment> segments_;
 };
 
+/// A segment from the first bytes of its chunk, its payload as far as they go; no checksum is verified. @fails bad_input.
+Result<Segment> beginning_of(const Index::Entry& entry, ByteView bytes, const DecodeLimits& limits);
+
 /// Segments that are fetched when they are asked for. Which one holds a frame is found by halving, at a few bytes a
 /// look. The file and its head must outlive it.
 class SegmentFetcher : public SegmentSource {

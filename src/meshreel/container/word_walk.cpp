@@ -18,8 +18,8 @@ std::vector<std::uint32_t> earlier_mates(const std::vector<Triangle>& triangles)
         const std::uint64_t a = triangle[(c + 1) % 3], b = triangle[(c + 2) % 3]; // c = 3t + i: the two other corners
         sides[c] = {std::min(a, b) << 32 | std::max(a, b), static_cast<std::uint32_t>(c)};
     }
-    std::sort(sides.begin(), sides.end(),
-              [](const Side& x, const Side& y) { return x.edge != y.edge ? x.edge < y.edge : x.corner < y.corner; });
+    std::ranges::sort(
+        sides, [](const Side& x, const Side& y) { return x.edge != y.edge ? x.edge < y.edge : x.corner < y.corner; });
     std::vector<std::uint32_t> mates(sides.size(), nothing);
     for (std::size_t i = 1; i < sides.size(); ++i)
         if (sides[i].edge == sides[i - 1].edge) mates[sides[i].corner] = sides[i - 1].corner;

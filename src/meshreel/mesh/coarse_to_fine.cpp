@@ -70,7 +70,7 @@ public:
     /// to those taken.
     void take(std::size_t l, CoarseToFine& result)
     {
-        std::sort(waiting_[l].begin(), waiting_[l].end());
+        std::ranges::sort(waiting_[l]);
         for (const std::uint32_t point : waiting_[l]) {
             std::size_t level = l;
             while (nearest_[point] < squares_[level]) ++level;

@@ -13,27 +13,6 @@ namespace meshreel::player {
 
 namespace {
 
-constexpr double most_position = 1e36; // mixes of frames overshoot by 64 at most: float32 holds them
-
-/// The largest of some numbers without their signs; no number where one of them is none.
-double largest(std::span<const double> numbers)
-{
-    double most = 0.0;
-    for (const double x : numbers)
-        if (!(std::abs(x) <= most) && most == most) most = std::abs(x);
-    return most;
-}
-
-/// Whether all that is made of the trajectories stays within float32.
-bool float_holds(const codecs::Trajectories& trajectories)
-{
-    const auto& [mean, rows] = trajectories.basis;
-    const double coefficient = largest(trajectories.C.values);
-    double bound = largest(mean);
-    for (std::size_t k = 0; k < rows.rows; ++k) bound += coefficient * largest(rows.row(k));
-    return coefficient <= most_position && largest(rows.values) <= most_position && bound <= most_position;
-}
-
 /// Parts a mean into a float32 and what float32 could not say of it.
 void set_mean(FrameTerms& frame, const double* mean)
 {
@@ -97,7 +76,7 @@ Status Player::open_segments(container::SegmentSource& segments, const codecs::C
         const codecs::Trajectories& trajectories = std::get<codecs::Trajectories>(opened);
         const std::uint64_t K = trajectories.C.cols;
         MESHREEL_CHECK(budget.take(4 * K * (blocks() * kernel_.block + 3ull * segment.frame_count + 12), "SEGM"));
-        if (!float_holds(trajectories))
+        if (!codecs::float_holds(trajectories))
             return bad_input("has positions that float32 cannot hold", "SEGM", at_byte(segment.payload_offset));
         add(trajectories, segment.first_frame, options.threads);
     }

@@ -1,0 +1,44 @@
+/// For tests in a browser: files of this project on loopback, and Debian's Chromium.
+// SPDX-License-Identifier: MIT
+import { createServer } from 'node:http';
+import { existsSync, readFileSync, statSync } from 'node:fs';
+import { extname, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { chromium } from 'playwright-core';
+
+const root = fileURLToPath(new URL('../../', import.meta.url));
+const types = { '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
+
+/// What a page may do: run our files and WebAssembly, no eval.
+export const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; connect-src 'self'; img-src blob: data:";
+
+export async function serve() {
+  const server = createServer((request, response) => {
+    const path = normalize(root + decodeURIComponent(new URL(request.url, 'http://x').pathname));
+    if (request.url === '/empty.html') {
+      response.writeHead(200, { 'Content-Type': 'text/html', 'Content-Security-Policy': policy });
+      response.end('<!doctype html><meta charset=utf-8><title>meshreel</title><canvas width=256 height=256></canvas>');
+    } else if (!path.startsWith(root) || !existsSync(path) || !statSync(path).isFile()) {
+      response.writeHead(404).end();
+    } else {
+      response.writeHead(200, { 'Content-Type': types[extname(path)] ?? 'application/octet-stream' });
+      response.end(readFileSync(path));
+    }
+  });
+  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+  return { address: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
+}
+
+/// Why there is no browser, or ''.
+export const missing = existsSync('/usr/bin/chromium') ? '' : 'Chromium is not installed (tools/install.sh --with-wasm)';
+
+export async function browse() {
+  const browser = await chromium.launch({
+    executablePath: '/usr/bin/chromium',
+    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+      '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
+      '--js-flags=--expose-gc'],
+  });
+  return browser;
+}
