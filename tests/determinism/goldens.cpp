@@ -40,6 +40,23 @@ void add_shapes(std::vector<Golden>& rows)
     }
 }
 
+/// Numbers of full precision that follow the mesh, once a vertex and again at every corner with a few exceptions.
+Animation smooth()
+{
+    Animation a = shape("walker", 400, 2);
+    std::vector<float> by_vertex, by_corner;
+    for (std::uint32_t v = 0; v < a.vertex_count; ++v)
+        for (std::size_t c = 0; c < 3; ++c) by_vertex.push_back(1 / (1.7f + a.positions[3 * v + c]));
+    for (const Triangle& t : a.triangles)
+        for (const std::uint32_t v : t)
+            by_corner.push_back(std::sqrt(2.3f + a.positions[3 * v]) - (t[0] % 40 == 0 ? 1 : 0));
+    a.appearance = {};
+    a.appearance.attributes.push_back(table("normal", Domain::vertex, Scalar::f32, by_vertex));
+    a.appearance.attributes.back().components = 3;
+    a.appearance.attributes.push_back(table("shade", Domain::corner, Scalar::f32, by_corner));
+    return a;
+}
+
 /// Options of the codecs that the rows above leave at their defaults.
 void add_options(std::vector<Golden>& rows)
 {
@@ -63,6 +80,7 @@ void add_options(std::vector<Golden>& rows)
     EncodeOptions exact = with_step("lossless");
     exact.segment = 6;
     rows.push_back({"lossless_v1_guess_wave", [] { return shape("wave", 100, 20); }, exact});
+    rows.push_back({"reel_v1_smooth", smooth, with_step("reel")});
     rows.push_back({"reel_v1_dressed", dressed, with_step("reel")});
     rows.push_back({"lossless_v1_dressed_free", dressed, with_step("lossless", Order::free)});
 }

@@ -195,6 +195,18 @@ TEST(ReelLevels, CarryWhatBelongsToTheirVerticesAndTriangles)
     EXPECT_EQ(coarse.appearance.materials, original.appearance.materials);
 }
 
+TEST(ReelLevels, HaveAValueForEveryCornerWhereTheFileHas)
+{
+    Animation original = jelly();
+    Attribute shade{"shade", Domain::corner, Scalar::u8, 1, false, Bytes(3 * original.triangles.size()), {}};
+    for (std::size_t c = 0; c < shade.values.size(); ++c)
+        shade.values[c] = static_cast<std::uint8_t>(original.triangles[c / 3][c % 3]);
+    original.appearance.attributes = {shade};
+    const auto coarse = decode(reel_of(original), {.level = 1});
+    ASSERT_TRUE(coarse.ok()) << coarse.error().sentence();
+    EXPECT_EQ(coarse->appearance.find("shade")->values.size(), 3 * coarse->triangles.size());
+}
+
 TEST(ReelLevels, KeepTheirSeams)
 {
     Animation original = jelly();

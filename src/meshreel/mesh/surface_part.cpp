@@ -11,7 +11,7 @@ namespace meshreel {
 
 namespace {
 
-/// Values of some elements alone, each value once.
+/// Values of some elements alone; of an attribute with indices each value once, of another one an element.
 Attribute values_of(const Attribute& attribute, std::span<const std::uint32_t> elements)
 {
     constexpr std::uint32_t no_value = 0xffffffff;
@@ -26,7 +26,7 @@ Attribute values_of(const Attribute& attribute, std::span<const std::uint32_t> e
             part.indices.push_back(no_value);
             continue;
         }
-        if (place[old] == no_value) {
+        if (attribute.indices.empty() || place[old] == no_value) {
             place[old] = static_cast<std::uint32_t>(part.value_count());
             const auto value = attribute.values.begin() + static_cast<std::ptrdiff_t>(old * size);
             part.values.insert(part.values.end(), value, value + static_cast<std::ptrdiff_t>(size));
