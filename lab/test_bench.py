@@ -305,6 +305,12 @@ class WholeRuns(unittest.TestCase):
             document.title = told.textContent.split(':')[0];"""
         self.assertEqual(self.shown(script), "reel, bases 4, step 0.005")
 
+    def test_pointing_at_a_point_shows_its_values(self):
+        script = """const frame = chart.getBoundingClientRect(), on = shown[1].points[0];
+            chart.dispatchEvent(new PointerEvent('pointermove', { clientX: frame.left + on.x + 3, clientY: frame.top + on.y }));
+            document.title = chart.querySelector('.tip b').textContent;"""
+        self.assertEqual(self.shown(script), "reel: bases 4, step 0.02")
+
     def test_the_legend_hides_a_curve_by_a_click(self):
         self.assertEqual(self.shown("legend.children[0].click(); document.title = shown.map((curve) => curve.coding.name).join()"), "reel")
 
