@@ -11,14 +11,15 @@ const root = fileURLToPath(new URL('../../', import.meta.url));
 const types = { '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
 
 /// What a page may do: run our files and WebAssembly, no eval.
-export const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; connect-src 'self'; img-src blob: data:";
+export const policy = "default-src 'none'; script-src 'self' 'nonce-map' 'wasm-unsafe-eval'; worker-src 'self' blob:; connect-src 'self'; img-src blob: data:";
 
 export async function serve() {
   const server = createServer((request, response) => {
     const path = normalize(root + decodeURIComponent(new URL(request.url, 'http://x').pathname));
     if (request.url === '/empty.html') {
       response.writeHead(200, { 'Content-Type': 'text/html', 'Content-Security-Policy': policy });
-      response.end('<!doctype html><meta charset=utf-8><title>meshreel</title><canvas width=256 height=256></canvas>');
+      response.end(`<!doctype html><meta charset=utf-8><title>meshreel</title><script type=importmap nonce=map>
+        {"imports": {"three": "/js/node_modules/three/build/three.module.js"}}</script><canvas width=256 height=256></canvas>`);
     } else if (!path.startsWith(root) || !existsSync(path) || !statSync(path).isFile()) {
       response.writeHead(404).end();
     } else {

@@ -1,0 +1,77 @@
+/// Types of meshreel for three.js.
+// SPDX-License-Identifier: MIT
+import type {
+  AnimationActionLoopStyles, BufferGeometry, EventDispatcher, InstancedMesh, Loader, LoadingManager, Material, Mesh, MeshStandardMaterial,
+} from 'three';
+import type { DecodeOptions, ReelEvent, ReelHead, ReelPiece, ReelSource } from './decode.js';
+
+export { ReelError, decodeReel } from './decode.js';
+export type * from './decode.js';
+
+/** One decoded file on the GPU, which meshes and crowds share. */
+export declare class ReelClip {
+  constructor(head: ReelHead, pieces: ReelPiece[]);
+  readonly head: ReelHead;
+  readonly geometry: BufferGeometry;
+  readonly gpuBytes: number;
+  readonly timeline: { readonly times: Float64Array; readonly period: number; readonly start: number; readonly duration: number };
+  materials(): MeshStandardMaterial | MeshStandardMaterial[];
+  dispose(): void;
+}
+
+export declare class ReelPlayer extends EventDispatcher<{ loop: { direction: number }; finished: { direction: number } }> {
+  readonly duration: number;
+  /** Seconds from the first frame; seek() changes it. */
+  readonly time: number;
+  /** Below 0: backwards. */
+  speed: number;
+  loop: AnimationActionLoopStyles;
+  readonly playing: boolean;
+  play(): this;
+  pause(): this;
+  reverse(): this;
+  seek(time: number): this;
+  update(seconds: number): void;
+}
+
+interface Worn {
+  readonly clip: ReelClip;
+  readonly player: ReelPlayer;
+  /** Puts on clones of other materials, and disposes of those it wore. */
+  wear(material: Material | Material[]): this;
+  /** A clone that this object could wear. */
+  worn<M extends Material>(material: M): M;
+}
+
+export declare class ReelMesh extends Mesh<BufferGeometry, Material | Material[]> implements Worn {
+  constructor(clip: ReelClip, material?: Material | Material[]);
+  readonly isReelMesh: true;
+  readonly clip: ReelClip;
+  readonly player: ReelPlayer;
+  wear(material: Material | Material[]): this;
+  worn<M extends Material>(material: M): M;
+  dispose(): void;
+}
+
+export declare class ReelCrowd extends InstancedMesh<BufferGeometry, Material | Material[]> implements Worn {
+  constructor(clip: ReelClip, material: Material | Material[] | undefined, count: number);
+  readonly isReelCrowd: true;
+  readonly clip: ReelClip;
+  readonly player: ReelPlayer;
+  setPhaseAt(i: number, seconds: number): void;
+  wear(material: Material | Material[]): this;
+  worn<M extends Material>(material: M): M;
+  dispose(): this;
+}
+
+export declare class ReelLoader extends Loader<ReelMesh> {
+  constructor(manager?: LoadingManager);
+  /** Whether files of every codec are read. */
+  all: boolean;
+  decodeOptions: DecodeOptions;
+  preload(): Promise<WebAssembly.Module>;
+  load(url: string, onLoad?: (mesh: ReelMesh) => void, onProgress?: (progress: any) => void, onError?: (error: unknown) => void): void;
+  loadClip(source: ReelSource, options?: DecodeOptions & { onEvent?: (event: ReelEvent) => void }): Promise<ReelClip>;
+  parse(buffer: ArrayBuffer, onLoad?: (mesh: ReelMesh) => void, onError?: (error: unknown) => void): Promise<ReelMesh>;
+  dispose(): this;
+}

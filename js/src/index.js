@@ -1,0 +1,5 @@
+/// meshreel for three.js.
+// SPDX-License-Identifier: MIT
+export { ReelLoader } from './loader.js';
+export { ReelClip, ReelCrowd, ReelMesh, ReelPlayer } from './reel.js';
+export { ReelError, decodeReel } from './decode.js';

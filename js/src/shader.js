@@ -1,0 +1,107 @@
+/// What is put into a material's vertex shader: positions and normals out of the tables of clip.js.
+// SPDX-License-Identifier: MIT
+
+const declarations = /* glsl */ `
+uniform highp sampler2D reelCoefficients, reelBasis, reelFrames;
+uniform int reelRows;
+attribute vec2 reelRow; // of positions, of tangents
+#ifdef REEL_CROWD
+  uniform float reelTime, reelPeriod, reelDuration;
+  uniform int reelFrameCount;
+  attribute float reelPhase;
+#else
+  uniform ivec4 reelFrame;
+  uniform vec4 reelWeight;
+#endif
+
+vec4 reelTexel( highp sampler2D table, int i ) { return texelFetch( table, ivec2( i & 2047, i >> 11 ), 0 ); }
+
+struct ReelMix { ivec4 frame; vec4 weight; };
+
+#ifdef REEL_CROWD
+  // src/timeline.js says the same.
+  int reelNumber( int f ) { return ( f % reelFrameCount + reelFrameCount ) % reelFrameCount; }
+  bool reelHas( int f ) { return reelPeriod > 0.0 || ( f >= 0 && f < reelFrameCount ); }
+  float reelTimeOf( int f ) {
+    int number = reelNumber( f );
+    return reelTexel( reelFrames, 2 * number + 1 ).w + float( ( f - number ) / reelFrameCount ) * reelPeriod;
+  }
+  void reelAddSpeed( inout vec4 w, ivec4 p, float scale, float r, float s ) {
+    if ( r > 0.0 ) {
+      w[ p.x ] -= scale / ( r * ( 1.0 + r ) );
+      w[ p.y ] += scale * ( 1.0 - r ) / r;
+      w[ p.z ] += scale * r / ( 1.0 + r );
+    } else if ( s > 0.0 ) {
+      w[ p.y ] -= scale * ( 2.0 + s ) / ( 1.0 + s );
+      w[ p.z ] += scale * ( 1.0 + s ) / s;
+      w[ p.w ] -= scale / ( s * ( 1.0 + s ) );
+    } else {
+      w[ p.y ] -= scale;
+      w[ p.z ] += scale;
+    }
+  }
+  ReelMix reelMixAt( float t ) {
+    int low = -1, high = reelFrameCount;
+    while ( high - low > 1 ) {
+      int middle = ( low + high ) / 2;
+      if ( reelTimeOf( middle ) <= t ) low = middle; else high = middle;
+    }
+    vec4 one = vec4( 1.0, 0.0, 0.0, 0.0 );
+    if ( low < 0 ) return ReelMix( ivec4( 0 ), one );
+    if ( ! reelHas( low + 1 ) ) return ReelMix( ivec4( low ), one );
+    float h = reelTimeOf( low + 1 ) - reelTimeOf( low ), u = ( t - reelTimeOf( low ) ) / h, v = 1.0 - u;
+    float before = reelHas( low - 1 ) ? ( reelTimeOf( low ) - reelTimeOf( low - 1 ) ) / h : 0.0;
+    float after = reelHas( low + 2 ) ? ( reelTimeOf( low + 2 ) - reelTimeOf( low + 1 ) ) / h : 0.0;
+    vec4 w = vec4( 0.0, ( 1.0 + 2.0 * u ) * v * v, u * u * ( 3.0 - 2.0 * u ), 0.0 );
+    reelAddSpeed( w, ivec4( 0, 1, 2, 3 ), u * v * v, before, after );
+    reelAddSpeed( w, ivec4( 3, 2, 1, 0 ), u * u * v, after, before );
+    if ( any( greaterThan( abs( w ), vec4( 16.0 ) ) ) ) w = vec4( 0.0, v, u, 0.0 );
+    return ReelMix( ivec4( reelNumber( low - 1 ), reelNumber( low ), reelNumber( low + 1 ), reelNumber( low + 2 ) ), w );
+  }
+  ReelMix reelNow() {
+    float t = reelTime + reelPhase;
+    return reelMixAt( reelDuration > 0.0 ? t - floor( t / reelDuration ) * reelDuration : 0.0 );
+  }
+#else
+  ReelMix reelNow() { return ReelMix( reelFrame, reelWeight ); }
+#endif
+
+// layer 0: the position; 1, 2: the tangents
+vec3 reelSum( ReelMix now, int layer ) {
+  vec3 sum = vec3( 0.0 );
+  for ( int n = 0; n < 4; ++ n ) {
+    float weight = now.weight[ n ];
+    if ( weight == 0.0 ) continue;
+    vec4 head = reelTexel( reelFrames, 2 * now.frame[ n ] );
+    int fours = int( head.y ), basis = int( head.z );
+    int row = layer == 0 ? int( reelRow.x ) : reelRows + 2 * int( reelRow.y ) + layer - 1;
+    int at = int( head.x ) + row * fours;
+    vec3 part = layer == 0 ? reelTexel( reelFrames, 2 * now.frame[ n ] + 1 ).xyz : vec3( 0.0 );
+    for ( int k = 0; k < fours; ++ k ) {
+      vec4 c = reelTexel( reelCoefficients, at + k );
+      part += vec3( dot( c, reelTexel( reelBasis, basis + 3 * k ) ), dot( c, reelTexel( reelBasis, basis + 3 * k + 1 ) ),
+        dot( c, reelTexel( reelBasis, basis + 3 * k + 2 ) ) );
+    }
+    sum += weight * part;
+  }
+  return sum;
+}
+`;
+
+const normals = /* glsl */ `
+vec3 reelTangent = reelSum( reelNow(), 1 );
+vec3 reelAcross = cross( reelTangent, reelSum( reelNow(), 2 ) );
+float reelArea = length( reelAcross );
+vec3 objectNormal = reelArea > 1e-12 ? reelAcross / reelArea : vec3( normal );
+#ifdef USE_TANGENT
+  vec3 objectTangent = tangent.xyz - objectNormal * dot( tangent.xyz, objectNormal );
+#endif
+`;
+
+/// A three.js vertex shader that takes positions and normals from a reel.
+export function reelVertexShader(shader) {
+  return shader
+    .replace('#include <common>', `#include <common>\n${declarations}`)
+    .replace('#include <beginnormal_vertex>', normals)
+    .replace('#include <begin_vertex>', '#include <begin_vertex>\ntransformed = reelSum( reelNow(), 0 );');
+}
