@@ -139,6 +139,15 @@ def exact_table(name):
     return markdown(["", *sequences], [[coding, *(by.get((coding, sequence), "–") for sequence in sequences)] for coding in codings])
 
 
+def rate_table(name, measure, error):
+    """Rate of a plan's codings at one error; no times, which a busy machine stretches."""
+    found = verdicts.at_error(rows := numbers(releases.read(name)), measure, error)
+    sequences, codings = (list(dict.fromkeys(row[key] for row in rows)) for key in ("sequence", "coding"))
+    cell = lambda key: f"{found[key][0]:.2f}" if key in found else "–"
+    return markdown(["", *sequences], [[coding, *(cell((sequence, coding)) for sequence in sequences)]
+                                       for coding in codings if any(key[1] == coding for key in found)])
+
+
 def made_by(name):
     """What the head of a plan's CSV file says, as one paragraph."""
     with open(os.path.join(releases.RESULTS, name + ".csv"), encoding="utf-8") as file:
@@ -165,6 +174,10 @@ TABLES = {
         "opening": lambda: player_table(of_newest("player"), OPENING, "open_1"),
         "measures": lambda: measure_table(of_newest("measures")),
         "scale": lambda: plain_table(of_newest("scale"), SCALE),
+    },
+    "docs/peers.md": {
+        "peers at KG 0.5 %": lambda: rate_table("peers", "kg", 0.5),
+        "peers, made by": lambda: made_by("peers"),
     },
 }
 
