@@ -30,11 +30,9 @@ struct FastWay {
     std::uint32_t growth, neighbours;
 };
 constexpr std::array<FastWay, 5> fast_ways{{{24, 10}, {12, 10}, {8, 12}, {4, 14}, {4, 16}}}; // the fastest first
-constexpr double most_for_fast = 1.09; // what one may cost at the same step
-constexpr std::uint32_t relax_rounds = 10;
-constexpr std::size_t frames_to_relax = 64; // fewer tell little of how an edge's length varies
-constexpr double nearly_missed = 0.99;      // of the largest error allowed
-constexpr std::size_t usual_bases = 256;    // enough for nearly every target; more are prepared when it is not
+constexpr double most_for_fast = 1.09;   // what one may cost at the same step
+constexpr double nearly_missed = 0.99;   // of the largest error allowed
+constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
 {
@@ -76,7 +74,7 @@ public:
             !limits_size(),
             plan_.knobs,
             plan_.rounds,
-            relaxes() ? relax_rounds : 0,
+            relaxes(),
             options_.progress,
             [&](tune::Attempt attempt) { return mended(std::move(attempt)); },
         };
@@ -164,8 +162,7 @@ private:
     /// Whether frames may be drawn towards lengths of edges: not where a vertex could be drawn beyond a limit.
     bool relaxes() const
     {
-        return codec_.detail != nullptr && !surface().triangles.empty() && segments_.longest() >= frames_to_relax &&
-               !limits_distance() && !options_.fast_decode;
+        return codec_.detail != nullptr && !surface().triangles.empty() && !limits_distance() && !options_.fast_decode;
     }
 
     bool limits_size() const { return std::isfinite(allowed_.bytes); }

@@ -31,7 +31,8 @@ struct LevelSize {
 };
 
 constexpr std::uint32_t taper_one = 256;
-constexpr std::uint32_t most_relax = 32;
+constexpr double noise_unit = 1.0 / 256; // of the step
+constexpr std::uint32_t most_noise = 1u << 20;
 
 struct ReelPayload {
     std::uint32_t bases = 0;
@@ -39,12 +40,19 @@ struct ReelPayload {
     std::array<float, 3> origin{};
     std::uint32_t taper = 0;
     InterpolationLaw law;
-    std::uint32_t mixed = 1, relax = 0;
+    std::uint32_t mixed = 1, length_noise = 0;
     std::uint64_t basis_size = 0, first_size = 0;
     std::vector<LevelSize> levels;
     ByteView bits;
 
     double taper_exponent() const { return taper / static_cast<double>(taper_one); }
+
+    /// The variance that Relaxation::relax takes.
+    double relaxed_noise() const
+    {
+        const double deviation = step * (length_noise * noise_unit);
+        return deviation * deviation;
+    }
 
     /// body(how many contexts a level is coded under, as a constant)
     auto with_contexts(const auto& body) const
@@ -70,7 +78,8 @@ struct ReelPayload {
                   "1: levels are coded under three contexts at once, 0: under the first of them");
         io.varint("neighbours", law.neighbours, {1, Interpolation::most}, "vertices that one is interpolated from");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
-        io.varint("relax", relax, {0, most_relax}, "steps towards edge lengths that hardly vary");
+        io.varint("length_noise", length_noise, {0, most_noise},
+                  "deviation of edge lengths that frames are relaxed for, in 1/256 of step; 0: they are not");
         io.varint("basis_size", basis_size, {0, most_part_bytes}, "bytes of basis_bits");
         io.varint("first_size", first_size, {0, most_part_bytes}, "bytes of first_bits");
         io.list("levels", levels, {1, most_levels}, "levels of detail, the coarsest first");
@@ -169,7 +178,7 @@ public:
         CodedBasis coded = code_basis(settings);
         return trial_of(std::move(coded.basis), settings, [&](const Basis& basis, MatrixView<double> C) {
             code_coefficients(coded, settings, C);
-            relax(sequence_.surface.triangles, basis, C, {coded.head.relax, settings.threads});
+            if (settings.relax) relax(coded.head, basis, C, settings.threads);
             coded.head.bits = coded.bits;
             return coded.head;
         });
@@ -196,7 +205,6 @@ private:
         coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth,
                           settings.neighbours};
         coded.head.mixed = settings.mixed ? 1 : 0;
-        coded.head.relax = std::min(settings.relax, most_relax);
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);
@@ -214,6 +222,16 @@ private:
             }
             K = static_cast<std::size_t>(nothing - weighed.energies.begin());
         }
+    }
+
+    /// Relaxes decoded coefficients as the decoder will, and says for which noise.
+    void relax(ReelPayload& head, const Basis& basis, MatrixView<double> C, Threads threads) const
+    {
+        constexpr double trust = 2.0; // neighbours err alike: their lengths err less than they do
+        const Relaxation relaxation(sequence_.surface.triangles, basis, threads);
+        const double deviation = std::sqrt(trust * relaxation.noise_of(C, sequence_.frames)) / (head.step * noise_unit);
+        head.length_noise = static_cast<std::uint32_t>(std::lround(std::min<double>(deviation, most_noise)));
+        relaxation.relax(C, head.relaxed_noise());
     }
 
     /// Adds the bits of the coefficients, and their sizes.
@@ -373,13 +391,14 @@ Result<Trajectories> read_trajectories(const ReelReader& reader, const Coded& co
 Status relax_decoded(const ReelReader& reader, const Coded& coded, Trajectories& decoded)
 {
     const bool whole = !coded.wanted || coded.wanted->size() == decoded.C.rows; // a coarser level lacks the edges
-    if (reader.head.relax == 0 || !whole) return Ok{};
+    if (reader.head.length_noise == 0 || !whole) return Ok{};
     const std::uint64_t there = 8 * std::uint64_t{decoded.C.values.size() + decoded.basis.rows.values.size()};
-    const std::uint64_t needed = relaxation_bytes(decoded.C.rows, coded.surface.triangles.size(), decoded.C.cols);
+    const std::uint64_t needed = Relaxation::bytes(decoded.C.rows, coded.surface.triangles.size(), decoded.C.cols);
     if (needed + there > coded.limits.max_memory)
-        return bad_input("relaxing does not fit in the memory limit", coded.payload.name + ".relax",
+        return bad_input("relaxing does not fit in the memory limit", coded.payload.name + ".length_noise",
                          at_byte(coded.payload.offset));
-    relax(coded.surface.triangles, decoded.basis, decoded.C.view(), {reader.head.relax, coded.threads});
+    Relaxation(coded.surface.triangles, decoded.basis, coded.threads)
+        .relax(decoded.C.view(), reader.head.relaxed_noise());
     return Ok{};
 }
 

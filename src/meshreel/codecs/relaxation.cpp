@@ -1,4 +1,4 @@
-/// Two passes over the posed frames: what lengths are, then steps towards them.
+/// Passes over the posed frames: what lengths are, then steps towards them.
 // SPDX-License-Identifier: MIT
 #include "meshreel/codecs/relaxation.h"
 
@@ -12,11 +12,19 @@ namespace meshreel::codecs {
 
 namespace {
 
-constexpr std::size_t relax_lanes = 8;                               // frames side by side: one register of AVX-512
-constexpr std::size_t relax_width = 3 * relax_lanes;                 // x, y, z of one vertex in all of them
-constexpr std::uint64_t relax_most_run = 16;                         // blocks of frames at a time
-constexpr std::uint64_t relax_run_bytes = 1ull << 26;                // that they should not exceed, unless two do
-constexpr std::uint64_t relax_vertex_bytes = 3ull * 8 * relax_width; // a block's places, their slopes, where they were
+constexpr std::size_t relax_lanes = 8;                // frames side by side: one register of AVX-512
+constexpr std::size_t relax_width = 3 * relax_lanes;  // x, y, z of one vertex in all of them
+constexpr std::uint64_t relax_most_run = 16;          // blocks of frames at a time
+constexpr std::uint64_t relax_run_bytes = 1ull << 26; // that they should not exceed, unless two do
+constexpr std::uint64_t relax_vertex_bytes =
+    5ull * 8 * relax_width; // a block's places now and before, their slopes, ...
+constexpr int relax_passes = 2, relax_rounds = 8;
+constexpr double stiffest = 10.0; // w at most
+constexpr double over_step = 1.8; // times the step that is sure to descend: what moves fastest is stiff
+constexpr double slowest =
+    0.95; // rho: what is left of the slowest error after a step, as Chebyshev's polynomials see it
+constexpr double least_spread = 1e-30;
+constexpr std::size_t edge_share = 1024, vertex_share = 256; // at a time
 
 /// Blocks of frames at a time; what comes out does not depend on it.
 std::uint64_t relax_run(std::uint64_t W)
@@ -24,14 +32,24 @@ std::uint64_t relax_run(std::uint64_t W)
     return std::clamp<std::uint64_t>(relax_run_bytes / (relax_vertex_bytes * W + 1), 2, relax_most_run);
 }
 
-struct ElasticEdge {
-    std::uint32_t i = 0, j = 0;
+/// An edge, what its length should be, and how much it should.
+struct Spring {
+    ElasticEdge edge;
     double length = 0.0, weight = 0.0;
 };
 
-/// Sums over frames of an edge's length less `base`, its length in the first frame, and of the squares.
+/// Sums over frames of what should be 0 on the mean, less `base`, which it is in the first frame; and of the squares.
 struct LengthSums {
     double base = 0.0, sum = 0.0, squares = 0.0;
+
+    void add(double value)
+    {
+        const double more = value - base;
+        sum += more;
+        squares += more * more;
+    }
+    double mean(double F) const { return base + sum / F; }
+    double variance(double F) const { return std::max(0.0, squares / F - (sum / F) * (sum / F)); }
 };
 
 /// Each edge of two different vertices once, in rising order.
@@ -48,7 +66,7 @@ std::vector<ElasticEdge> edges_of(std::span<const Triangle> triangles)
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     std::vector<ElasticEdge> edges(keys.size());
     for (std::size_t e = 0; e < keys.size(); ++e)
-        edges[e] = {static_cast<std::uint32_t>(keys[e] >> 32), static_cast<std::uint32_t>(keys[e]), 0.0, 0.0};
+        edges[e] = {static_cast<std::uint32_t>(keys[e] >> 32), static_cast<std::uint32_t>(keys[e])};
     return edges;
 }
 
@@ -103,49 +121,80 @@ inline void measure_edge(const ElasticEdge& edge, const double* __restrict x, Ed
     }
 }
 
-/// sums [E] of the first `count` frames of a block, in their order.
+/// sums [E] take lengths in the first `count` frames of a block, in their order.
 MESHREEL_WIDEST void add_lengths(std::span<const ElasticEdge> edges, const double* __restrict x, std::size_t count,
                                  LengthSums* __restrict sums)
 {
     for (std::size_t e = 0; e < edges.size(); ++e) {
         EdgeInBlock found;
         measure_edge(edges[e], x, found);
-        for (std::size_t l = 0; l < count; ++l) {
-            const double more = found.length[l] - sums[e].base;
-            sums[e].sum += more;
-            sums[e].squares += more * more;
-        }
+        for (std::size_t l = 0; l < count; ++l) sums[e].add(found.length[l]);
+    }
+}
+
+/// One block as decoded and as it was.
+struct TwoBlocks {
+    std::vector<double> decoded, wanted;
+};
+
+/// Likewise what lengths as decoded have beyond those wanted.
+MESHREEL_WIDEST void add_length_errors(std::span<const ElasticEdge> edges, const TwoBlocks& blocks, std::size_t count,
+                                       LengthSums* __restrict sums)
+{
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        EdgeInBlock found, wanted;
+        measure_edge(edges[e], blocks.decoded.data(), found);
+        measure_edge(edges[e], blocks.wanted.data(), wanted);
+        for (std::size_t l = 0; l < count; ++l) sums[e].add(found.length[l] - wanted.length[l]);
     }
 }
 
 /// Adds to slopes [W x relax_width] that of sum w (|x_i - x_j| - L)^2 / 2.
-MESHREEL_WIDEST void add_slopes(std::span<const ElasticEdge> edges, const double* __restrict x,
-                                double* __restrict slopes)
+MESHREEL_WIDEST void add_slopes(std::span<const Spring> springs, const double* __restrict x, double* __restrict slopes)
 {
-    for (const ElasticEdge& edge : edges) {
+    for (const Spring& spring : springs) {
         EdgeInBlock found;
-        measure_edge(edge, x, found);
+        measure_edge(spring.edge, x, found);
         double pull[relax_lanes];
         for (std::size_t l = 0; l < relax_lanes; ++l) {
             const double length = found.length[l] > 0 ? found.length[l] : 1.0; // no direction: `along` is 0
-            pull[l] = edge.weight * (1.0 - edge.length / length);
+            pull[l] = spring.weight * (1.0 - spring.length / length);
         }
-        double *a = slopes + edge.i * relax_width, *b = slopes + edge.j * relax_width;
+        double *a = slopes + spring.edge.i * relax_width, *b = slopes + spring.edge.j * relax_width;
         for (std::size_t i = 0; i < relax_width; ++i) found.along[i] *= pull[i % relax_lanes];
         for (std::size_t i = 0; i < relax_width; ++i) a[i] += found.along[i];
         for (std::size_t i = 0; i < relax_width; ++i) b[i] -= found.along[i];
     }
 }
 
-/// One step of all vertices; slopes are 0 afterwards.
-MESHREEL_WIDEST void step_down(std::span<const double> steps, const double* __restrict p, double* __restrict slopes,
-                               double* __restrict x)
+/// Places [W x relax_width] of a block on their way: decoded, now, and one round ago.
+struct Descent {
+    std::vector<double> p, x, before, slopes;
+
+    Descent(std::vector<double> decoded, std::vector<double> now)
+        : p(std::move(decoded)), x(std::move(now)), before(x), slopes(x.size(), 0.0)
+    {
+    }
+};
+
+/// `before` becomes where x goes next: a step down the slopes, lengthened by omega; slopes are 0 afterwards.
+MESHREEL_WIDEST void step_down(std::span<const double> steps, double omega, Descent& descent)
 {
+    const double* __restrict p = descent.p.data(), * __restrict x = descent.x.data();
+    double* __restrict before = descent.before.data(), * __restrict slopes = descent.slopes.data();
     for (std::size_t v = 0; v < steps.size(); ++v)
         for (std::size_t i = v * relax_width; i < (v + 1) * relax_width; ++i) {
-            x[i] -= steps[v] * ((x[i] - p[i]) + slopes[i]);
+            const double next = x[i] - steps[v] * ((x[i] - p[i]) + slopes[i]);
+            before[i] += omega * (next - before[i]);
             slopes[i] = 0.0;
         }
+}
+
+/// omega of a round from that of the round before: Chebyshev's recurrence.
+constexpr double next_omega(int round, double omega)
+{
+    if (round == 0) return 1.0;
+    return round == 1 ? 2.0 / (2.0 - slowest * slowest) : 4.0 / (4.0 - slowest * slowest * omega);
 }
 
 /// sums [K] += delta [relax_width] times the block's basis, turned: turned [relax_width x K].
@@ -158,139 +207,178 @@ MESHREEL_WIDEST void add_projected(const double* __restrict delta, const double*
         for (std::size_t k = 0; k < K; ++k) out[k] += delta[i] * turned[i * K + k];
 }
 
-class Relaxation {
-public:
-    Relaxation(std::span<const Triangle> triangles, const Basis& basis, MatrixView<double> C,
-               const RelaxOptions& options)
-        : basis_(basis), C_(C), options_(options), frame_count_(basis.mean.size() / 3),
-          blocks_((frame_count_ + relax_lanes - 1) / relax_lanes), edges_(edges_of(triangles))
-    {
-    }
+/// Frames of the original as a block, [W x relax_width]; those beyond the last are 0.
+std::vector<double> block_of(MatrixView<const float> frames, std::size_t block)
+{
+    const std::size_t W = frames.cols / 3, first = block * relax_lanes,
+                      count = std::min(relax_lanes, frames.rows - first);
+    std::vector<double> x(W * relax_width, 0.0);
+    for (std::size_t l = 0; l < count; ++l)
+        for (std::size_t v = 0; v < W; ++v)
+            for (std::size_t c = 0; c < 3; ++c)
+                x[v * relax_width + c * relax_lanes + l] = frames.row(first + l)[3 * v + c];
+    return x;
+}
 
-    void run()
-    {
-        if (edges_.empty() || C_.cols == 0 || frame_count_ < 2) return;
-        trust(lengths());
-        Matrix<double> moved(C_.rows, C_.cols);
-        const std::size_t run = relax_run(C_.rows);
-        for (std::size_t first = 0; first < blocks_; first += run)
-            add_moves(first, std::min(run, blocks_ - first), moved.view());
-        for (std::size_t i = 0; i < moved.values.size(); ++i) C_.values()[i] += moved.values[i];
+/// sums [E] of differences to the lengths in a block's first frame.
+void begin_lengths(std::span<const ElasticEdge> edges, const double* x, LengthSums* sums)
+{
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        EdgeInBlock found;
+        measure_edge(edges[e], x, found);
+        sums[e].base = found.length[0];
     }
+}
 
-private:
-    /// Mean and variance of every edge are found from these, added block after block.
-    std::vector<LengthSums> lengths() const
-    {
-        std::vector<LengthSums> sums(edges_.size());
-        const std::size_t run = relax_run(C_.rows);
-        for (std::size_t first = 0; first < blocks_; first += run) {
-            std::vector<std::vector<double>> posed(std::min(run, blocks_ - first));
-            parallel_for(posed.size(), options_.threads,
-                         [&](std::size_t b) { posed[b] = posed_block(BlockBasis(basis_, first + b), C_); });
-            if (first == 0) begin(sums, posed[0].data());
-            add_run(first, posed, sums);
-        }
-        return sums;
-    }
-
-    void begin(std::vector<LengthSums>& sums, const double* x) const
-    {
-        for (std::size_t e = 0; e < edges_.size(); ++e) {
-            EdgeInBlock found;
-            measure_edge(edges_[e], x, found);
-            sums[e].base = found.length[0];
-        }
-    }
-
-    void add_run(std::size_t first, const std::vector<std::vector<double>>& posed, std::span<LengthSums> sums) const
-    {
-        constexpr std::size_t share = 1024; // edges
-        parallel_for((edges_.size() + share - 1) / share, options_.threads, [&](std::size_t task) {
-            const std::size_t from = task * share, count = std::min(share, edges_.size() - from);
-            for (std::size_t b = 0; b < posed.size(); ++b)
-                add_lengths(std::span(edges_).subspan(from, count), posed[b].data(),
-                            std::min(relax_lanes, frame_count_ - (first + b) * relax_lanes), sums.data() + from);
-        });
-    }
-
-    /// What edges weigh, and how far vertices may step.
-    void trust(const std::vector<LengthSums>& sums)
-    {
-        const double F = static_cast<double>(frame_count_);
-        std::vector<double> variances(edges_.size());
-        for (std::size_t e = 0; e < edges_.size(); ++e) {
-            const double mean = sums[e].sum / F;
-            edges_[e].length = sums[e].base + mean;
-            variances[e] = std::max(0.0, sums[e].squares / F - mean * mean);
-        }
-        std::vector<double> sorted = variances;
-        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-        std::nth_element(sorted.begin(), middle, sorted.end());
-        const double noise = *middle;
-        steps_.assign(C_.rows, 1.0);
-        for (std::size_t e = 0; e < edges_.size(); ++e) {
-            ElasticEdge& edge = edges_[e];
-            edge.weight = variances[e] > noise ? std::min(1.0, 0.5 * noise / (variances[e] - noise)) : 1.0;
-            steps_[edge.i] += 2.0 * edge.weight;
-            steps_[edge.j] += 2.0 * edge.weight;
-        }
-        for (double& step : steps_) step = 1.0 / step;
-    }
-
-    /// How far the vertices of one block go, [W x relax_width].
-    std::vector<double> moves(const BlockBasis& basis) const
-    {
-        std::vector<double> p = posed_block(basis, C_), x = p, slopes(p.size(), 0.0);
-        for (std::uint32_t round = 0; round < options_.rounds; ++round) {
-            add_slopes(edges_, x.data(), slopes.data());
-            step_down(steps_, p.data(), slopes.data(), x.data());
-        }
-        for (std::size_t i = 0; i < p.size(); ++i) p[i] = x[i] - p[i];
-        return p;
-    }
-
-    /// moved [W x K]: adds what a run of blocks moves, in their order.
-    void add_moves(std::size_t first, std::size_t count, MatrixView<double> moved) const
-    {
-        const std::size_t K = C_.cols;
-        std::vector<std::vector<double>> delta(count), turned(count);
-        parallel_for(count, options_.threads, [&](std::size_t b) {
-            const BlockBasis basis(basis_, first + b);
-            delta[b] = moves(basis);
-            turned[b].resize(relax_width * K);
-            for (std::size_t k = 0; k < K; ++k)
-                for (std::size_t i = 0; i < relax_width; ++i) turned[b][i * K + k] = basis.rows[k * relax_width + i];
-        });
-        constexpr std::size_t share = 256; // vertices
-        parallel_for((C_.rows + share - 1) / share, options_.threads, [&](std::size_t task) {
-            const std::size_t from = task * share, end = std::min(C_.rows, from + share);
-            for (std::size_t b = 0; b < count; ++b)
-                for (std::size_t v = from; v < end; ++v)
-                    add_projected(delta[b].data() + v * relax_width, turned[b].data(), moved.row(v));
-        });
-    }
-
-    const Basis& basis_;
-    MatrixView<double> C_;
-    RelaxOptions options_;
-    std::size_t frame_count_, blocks_;
-    std::vector<ElasticEdge> edges_;
-    std::vector<double> steps_; ///< [W]
-};
+/// The basis of a block, [relax_width x K].
+std::vector<double> turned(const BlockBasis& basis)
+{
+    const std::size_t K = basis.rows.size() / relax_width;
+    std::vector<double> rows(basis.rows.size());
+    for (std::size_t k = 0; k < K; ++k)
+        for (std::size_t i = 0; i < relax_width; ++i) rows[i * K + k] = basis.rows[k * relax_width + i];
+    return rows;
+}
 
 } // namespace
 
-void relax(std::span<const Triangle> triangles, const Basis& basis, MatrixView<double> C, const RelaxOptions& options)
+std::size_t Relaxation::Blocks::frames_in(std::size_t block) const
 {
-    if (options.rounds > 0) Relaxation(triangles, basis, C, options).run();
+    return std::min(relax_lanes, frames - block * relax_lanes);
 }
 
-std::uint64_t relaxation_bytes(std::uint64_t W, std::uint64_t T, std::uint64_t K)
+/// use(first, made): made[b] is what make(first + b) gave.
+template <class Make, class Use>
+void Relaxation::Blocks::in_runs(std::size_t W, const Make& make, const Use& use) const
 {
-    constexpr std::uint64_t edge_bytes = sizeof(ElasticEdge) + sizeof(LengthSums) + 2 * sizeof(double);
+    const std::size_t count = (frames + relax_lanes - 1) / relax_lanes, run = relax_run(W);
+    for (std::size_t first = 0; first < count; first += run) {
+        std::vector<decltype(make(first))> made(std::min(run, count - first));
+        parallel_for(made.size(), threads, [&](std::size_t b) { made[b] = make(first + b); });
+        use(first, made);
+    }
+}
+
+/// body(from, count) for all of `count` things.
+template <class Body>
+void Relaxation::Blocks::in_shares(std::size_t count, std::size_t share, const Body& body) const
+{
+    parallel_for((count + share - 1) / share, threads,
+                 [&](std::size_t s) { body(s * share, std::min(share, count - s * share)); });
+}
+
+/// All that edges ask of the vertices.
+struct Relaxation::Elastic {
+    std::vector<Spring> springs;
+    std::vector<double> steps; ///< [W]
+
+    /// Lets x run, over_step each; returns how far it went.
+    std::vector<double> moves(Descent descent) const
+    {
+        std::vector<double> from = descent.x;
+        double omega = 1.0;
+        for (int round = 0; round < relax_rounds; ++round) {
+            add_slopes(springs, descent.x.data(), descent.slopes.data());
+            omega = next_omega(round, omega);
+            step_down(steps, omega, descent);
+            std::swap(descent.x, descent.before);
+        }
+        for (std::size_t i = 0; i < from.size(); ++i) from[i] = descent.x[i] - from[i];
+        return from;
+    }
+};
+Relaxation::Relaxation(std::span<const Triangle> triangles, const Basis& basis, Threads threads)
+    : basis_(basis), blocks_{basis.mean.size() / 3, threads}, edges_(edges_of(triangles))
+{
+}
+
+double Relaxation::noise_of(MatrixView<const double> C, MatrixView<const float> frames) const
+{
+    if (edges_.empty()) return 0.0;
+    std::vector<LengthSums> sums(edges_.size());
+    blocks_.in_runs(
+        C.rows,
+        [&](std::size_t b) {
+            return TwoBlocks{posed_block(BlockBasis(basis_, b), C), block_of(frames, b)};
+        },
+        [&](std::size_t first, const std::vector<TwoBlocks>& run) {
+            blocks_.in_shares(edges_.size(), edge_share, [&](std::size_t from, std::size_t count) {
+                for (std::size_t b = 0; b < run.size(); ++b)
+                    add_length_errors(std::span(edges_).subspan(from, count), run[b], blocks_.frames_in(first + b),
+                                      sums.data() + from);
+            });
+        });
+    std::vector<double> variances;
+    for (const LengthSums& of_edge : sums) variances.push_back(of_edge.variance(static_cast<double>(blocks_.frames)));
+    const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+    std::nth_element(variances.begin(), middle, variances.end());
+    return *middle;
+}
+
+void Relaxation::relax(MatrixView<double> C, double noise) const
+{
+    if (edges_.empty() || C.cols == 0 || blocks_.frames < 2 || !(noise > 0)) return;
+    Matrix<double> decoded(C.rows, C.cols);
+    std::ranges::copy(C.values(), decoded.values.begin());
+    for (int pass = 0; pass < relax_passes; ++pass) draw(elastic(C, noise, pass == 0 ? noise : 0.0), decoded.view(), C);
+}
+
+/// How far lengths in C B + m can be trusted, whose noise may be in their spread.
+Relaxation::Elastic Relaxation::elastic(MatrixView<const double> C, double noise, double noise_in_spread) const
+{
+    std::vector<LengthSums> sums(edges_.size());
+    blocks_.in_runs(
+        C.rows, [&](std::size_t b) { return posed_block(BlockBasis(basis_, b), C); },
+        [&](std::size_t first, const std::vector<std::vector<double>>& posed) {
+            blocks_.in_shares(edges_.size(), edge_share, [&](std::size_t from, std::size_t count) {
+                const std::span<const ElasticEdge> edges = std::span(edges_).subspan(from, count);
+                if (first == 0) begin_lengths(edges, posed[0].data(), sums.data() + from);
+                for (std::size_t b = 0; b < posed.size(); ++b)
+                    add_lengths(edges, posed[b].data(), blocks_.frames_in(first + b), sums.data() + from);
+            });
+        });
+    const double F = static_cast<double>(blocks_.frames);
+    Elastic elastic{{}, std::vector<double>(C.rows, 1.0)};
+    elastic.springs.reserve(edges_.size());
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const double spread = std::max(sums[e].variance(F) - noise_in_spread, least_spread);
+        const double weight = std::min(stiffest, 0.5 * noise / spread);
+        elastic.springs.push_back({edges_[e], sums[e].mean(F), weight});
+        for (const std::uint32_t v : {edges_[e].i, edges_[e].j}) elastic.steps[v] += 2.0 * weight;
+    }
+    for (double& step : elastic.steps) step = over_step / step;
+    return elastic;
+}
+
+/// C [W x K] takes what moves of its frames the basis can say. decoded [W x K]: before all passes.
+void Relaxation::draw(const Elastic& elastic, MatrixView<const double> decoded, MatrixView<double> C) const
+{
+    struct Moves {
+        std::vector<double> delta, turned;
+    };
+    const std::size_t K = C.cols;
+    Matrix<double> moved(C.rows, K);
+    blocks_.in_runs(
+        C.rows,
+        [&](std::size_t b) {
+            const BlockBasis basis(basis_, b);
+            return Moves{elastic.moves({posed_block(basis, decoded), posed_block(basis, C)}), turned(basis)};
+        },
+        [&](std::size_t, const std::vector<Moves>& run) {
+            blocks_.in_shares(C.rows, vertex_share, [&](std::size_t from, std::size_t count) {
+                for (const Moves& moves : run)
+                    for (std::size_t v = from; v < from + count; ++v)
+                        add_projected(moves.delta.data() + v * relax_width, moves.turned.data(), moved.row(v));
+            });
+        });
+    for (std::size_t i = 0; i < moved.values.size(); ++i) C.values()[i] += moved.values[i];
+}
+
+std::uint64_t Relaxation::bytes(std::uint64_t W, std::uint64_t T, std::uint64_t K)
+{
+    constexpr std::uint64_t edge_bytes = sizeof(ElasticEdge) + sizeof(LengthSums) + sizeof(Spring);
     const std::uint64_t run = relax_run(W), basis = run * 2 * 8 * relax_width * K;
-    return 8 * W * (K + 1) + 3 * T * edge_bytes + run * relax_vertex_bytes * W + basis;
+    return 8 * W * (2 * K + 1) + 3 * T * edge_bytes + run * relax_vertex_bytes * W + basis;
 }
 
 } // namespace meshreel::codecs

@@ -178,10 +178,10 @@ private:
     /// Decoders have work with it: only where it saves what is worth that.
     Status try_relaxing(Attempt& best)
     {
-        constexpr double worth_work = 0.01;
-        if (problem_.relax == 0) return Ok{};
+        constexpr double worth_work = 0.02;
+        if (!problem_.relax) return Ok{};
         Settings settings = best.settings;
-        settings.relax = problem_.relax;
+        settings.relax = true;
         MESHREEL_TRY(Attempt attempt, attempted(settings));
         if (price(attempt) < price(best) - worth_work) best = std::move(attempt);
         return Ok{};
