@@ -41,12 +41,13 @@ def of_attribute(a):
             "indices": None if a.indices is None else words(a.indices)}
 
 
-def of_levels(file, positions):
+def of_levels(file):
     """Of files in which each vertex has a trajectory of its own; the others' levels are the reader's business."""
     if file.codec != "reel" or file.V != file.W:
         return []
     top, (_, count, payload, at) = file.topology, file.segments[0]
     order, found = reel.order_of(container.Fields(payload, at, "SEGM"), top, count), []
+    positions = decode.frames(file, relaxed=False) if len(order.counts()) > 1 else None
     for level in range(1, len(order.counts())):
         kept = set(levels.kept_of(order, level))
         vertices = [v for v, s in enumerate(top.surface_of) if s in kept]
@@ -71,7 +72,7 @@ def of(data, base=None):
             "attributes": [of_attribute(a) for a in file.attributes],
             "assets": [{"name": a["name"].decode(errors="replace"), "mime_type": a["mime_type"].decode(errors="replace"), "size": len(a["data"]),
                         "bytes": digits(a["data"])} for a in file.assets],
-            "levels": of_levels(file, positions)}
+            "levels": of_levels(file)}
 
 
 if __name__ == "__main__":

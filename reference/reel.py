@@ -10,6 +10,7 @@ import numpy
 from coding import MixedLevels, RangeDecoder, octave_column
 from learning import LeastSquares, bounded, parallelograms
 from pca import magnitude, power
+from relaxation import Relaxation
 
 TINY = 5e-324
 
@@ -31,7 +32,7 @@ class Payload:
         self.contexts = 3 if fields.varint("mixed", 0, 1) else 1
         self.neighbours = fields.varint("neighbours", 1, 16)
         self.growth = fields.varint("growth", 1, 10**6)
-        self.relax = fields.varint("relax", 0, 32)
+        self.length_noise = fields.varint("length_noise", 0, 1 << 20)
         basis_size, first_size = fields.varint("basis_size", 0, 1 << 40), fields.varint("first_size", 0, 1 << 40)
         sizes = [fields.varint(f"levels[{i}].bytes", 0, 1 << 40) for i in range(fields.varint("levels", 1, 16))]
         self.level_ends = [sum(sizes[:i + 1]) for i in range(len(sizes))]
@@ -392,17 +393,17 @@ def basis_of(Y, payload):
     return [payload.origin[axis] + unit * row[axis] for axis in range(3) for row in Y], B, energies
 
 
-def open_payload(fields, topology, frames, keep=None):
+def open_payload(fields, topology, frames, keep=None, relaxed=True):
     """(mean [3F], B [K][3F], C [W][K]) of a payload. keep: how many levels of detail, the coarsest first; None: all."""
     payload = Payload(fields, frames, len(topology.surface.vertices))
-    if payload.relax:
-        fields.refuse("relax", "relaxation is not read yet")
     Y = Poses(payload).Y
     first = FirstComponents(payload, topology.surface)
     mean, B, energies = basis_of(Y, payload)
-    if payload.K <= 3:
-        return mean, B, first.C
-    return mean, B, AllOthers(payload, first, energies, keep).C
+    C = first.C if payload.K <= 3 else AllOthers(payload, first, energies, keep).C
+    if relaxed and payload.length_noise and keep is None and payload.K > 0 and frames > 1:
+        deviation = payload.step * (payload.length_noise / 256)
+        C = Relaxation(topology.surface.triangles, mean, B).relax(C, deviation * deviation)
+    return mean, B, C
 
 
 def order_of(fields, topology, frames):

@@ -31,7 +31,8 @@ void make(const golden::Golden& row, const Animation* base)
     options.base = base;
     const auto encoded = encode(row.make(), options);
     ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
-    write_text(row.file(), std::string(encoded->bytes.begin(), encoded->bytes.end()));
+    const Bytes file = row.change ? row.change(row.make(), encoded->bytes) : encoded->bytes;
+    write_text(row.file(), std::string(file.begin(), file.end()));
 }
 
 class GoldenFile : public testing::TestWithParam<golden::Golden> {};

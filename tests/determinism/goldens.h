@@ -20,6 +20,8 @@ struct Golden {
     std::function<Animation()> make;
     EncodeOptions options = {};
     std::string base = {}; ///< the golden file whose V and triangles are the base mesh's
+    /// Changes the file that the encoder made: for what only its search would choose.
+    std::function<Bytes(const Animation&, const Bytes&)> change = {};
 
     std::string file() const { return "tests/golden/" + name + ".reel"; }
     std::string meaning_file() const { return "tests/golden/" + name + ".json"; }
