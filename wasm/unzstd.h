@@ -1,4 +1,4 @@
-/// One zstd frame (RFC 8878) unpacked, in some four kilobytes of code: attributes and assets of a file are packed so.
+/// One zstd frame (RFC 8878) unpacked, in little code: attributes and assets of a file are packed so.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -142,6 +142,42 @@ test('a flipped byte is an error that names byte and field, or nothing that the 
   }
 });
 
+/// Where the chunks of a file are, INDX and TAIL left out.
+function chunksOf(bytes) {
+  const found = [];
+  for (let at = 16; ; ) {
+    let size = 0, payload = at + 4;
+    for (let shift = 1; ; shift *= 128) {
+      size += (bytes[payload] & 127) * shift;
+      if (bytes[payload++] < 128) break;
+    }
+    if (String.fromCharCode(...bytes.slice(at, at + 4)) === 'INDX') return found;
+    found.push({ at, payload, size });
+    at = payload + size + 4;
+  }
+}
+
+test('wrong payloads behind right checksums are refused or decoded, and never stop the machine', async () => {
+  const hasher = await Decoder.create(modules.all), files = names.filter((name) => /^(reel|coddyac|lsp|lossless)_/.test(name));
+  let seed = 1, refused = 0;
+  const random = (count) => ((seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) >>> 4) % count;
+  for (let i = 0; i < 600; ++i) {
+    const bytes = Uint8Array.from(bytesOf(files[random(files.length)])), chunks = chunksOf(bytes).filter((chunk) => chunk.size > 0);
+    const { at, payload, size } = chunks[random(chunks.length)];
+    for (let flips = 1 + random(3); flips > 0; --flips)
+      bytes[payload + random(random(2) ? Math.min(size, 40) : size)] ^= 1 << random(8);
+    const checksum = Number(hasher.hash(bytes.slice(at, payload + size)) & 0xffffffffn);
+    new DataView(bytes.buffer).setUint32(payload + size, checksum, true);
+    try {
+      await decoded(bytes, modules.all, { coarseLevel: random(3), slice: random(2) ? 500 : bytes.length, maxMemory: 2 ** 28 });
+    } catch (error) {
+      assert.ok(error instanceof ReelError && error.code !== 4, error.stack);
+      ++refused;
+    }
+  }
+  assert.ok(refused > 100 && refused < 600, `${refused} refused`);
+});
+
 test('a codec that the small decoder lacks is named', async () => {
   await assert.rejects(decoded(bytesOf('lsp_v1_cobra_range'), modules.reel), (error) => error.code === 5 && error.field === 'HEAD.codec');
 });
