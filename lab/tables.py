@@ -148,6 +148,17 @@ def rate_table(name, measure, error):
                                        for coding in codings if any(key[1] == coding for key in found)])
 
 
+def lossless_table(name):
+    """A sequence a row, a coding a column."""
+    rows = releases.read(name)
+    by = {(row["sequence"], row["coding"]): row for row in rows}
+    sequences, codings = (list(dict.fromkeys(row[key] for row in rows)) for key in ("sequence", "coding"))
+    if wrong := [key for key, row in by.items() if float(row["max_error_relative"]) != 0]:
+        raise ValueError(f"not without loss: {wrong}")
+    cells = lambda name: [f"{float(by[name, coding]['bpfv']):.2f}" if (name, coding) in by else "–" for coding in codings]
+    return markdown(["sequence", *codings], [[name, *cells(name)] for name in sequences])
+
+
 def made_by(name):
     """What the head of a plan's CSV file says, as one paragraph."""
     with open(os.path.join(releases.RESULTS, name + ".csv"), encoding="utf-8") as file:
@@ -178,6 +189,10 @@ TABLES = {
     "docs/peers.md": {
         "peers at KG 0.5 %": lambda: rate_table("peers", "kg", 0.5),
         "peers, made by": lambda: made_by("peers"),
+    },
+    "src/meshreel/codecs/lossless.md": {
+        "lossless": lambda: lossless_table("lossless"),
+        "lossless, made by": lambda: made_by("lossless"),
     },
 }
 
