@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshreel/base/prefetch.h"
+
 namespace meshreel::codecs {
 
 namespace {
@@ -74,6 +76,7 @@ void Interpolation::weigh(const Task& task, std::size_t first, predict::Kriging&
     const auto& [level, C, known] = task;
     const std::size_t n = std::min<std::size_t>(level.candidates, law_.neighbours);
     for (std::size_t lane = 0; lane < result.size(); ++lane) {
+        if (first + lane + 1 < level.vertices.size()) fetch(first + lane + 1, task);
         const std::span<Near> near = level.of(first + lane);
         const std::span<const double> own = C.row(level.vertices[first + lane]);
         renew(near, own, task);
@@ -89,6 +92,15 @@ void Interpolation::weigh(const Task& task, std::size_t first, predict::Kriging&
     for (std::size_t lane = 0; lane < result.size(); ++lane) {
         result[lane].count = n;
         for (std::size_t i = 0; i < n; ++i) result[lane].values[i] = values[i][lane];
+    }
+}
+
+void Interpolation::fetch(std::size_t i, const Task& task) const
+{
+    std::size_t place = 0;
+    for (const Near& one : task.level.of(i)) {
+        const std::size_t begin = place++ < law_.neighbours ? 0 : task.level.known; // farther ones are only measured
+        prefetch(task.C.row(one.vertex).subspan(begin, task.known - begin));
     }
 }
 

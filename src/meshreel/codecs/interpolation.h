@@ -80,6 +80,8 @@ private:
         std::size_t known;
     };
     void weigh(const Task& task, std::size_t first, predict::Kriging& kriging, std::span<Weights> result) const;
+    /// Asks for what weighing the i-th vertex of the level will read.
+    void fetch(std::size_t i, const Task& task) const;
     static void renew(std::span<Near> near, std::span<const double> own, const Task& task);
 
     CoarseToFine order_;

@@ -10,6 +10,7 @@
 
 #include "meshreel/base/exact.h"
 #include "meshreel/base/parallel.h"
+#include "meshreel/base/prefetch.h"
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/contexts.h"
 #include "meshreel/codecs/interpolation.h"
@@ -99,10 +100,20 @@ private:
         nearby_.resize(last - first);
         for (std::size_t i = 0; i < weights.size() && !ended(core_); ++i) {
             const std::size_t v = level.near.vertices[i];
+            if (i + 1 < weights.size()) fetch(weights[i + 1], first, level);
             weights[i].apply(level.C, first, guess_);
             look_around(weights[i], first, level.L);
             for (std::size_t k = first; k < last; ++k)
                 code_value(weights[i], {v, k, guess_[k - first], nearby_[k - first]}, level);
+        }
+    }
+
+    /// Asks for what a batch from component `first` on will read of a vertex' neighbours.
+    void fetch(const Interpolation::Weights& near, std::size_t first, const Level& level) const
+    {
+        for (std::size_t i = 0; i < near.count; ++i) {
+            prefetch(level.C.row(near.vertices[i]).subspan(first, guess_.size()));
+            prefetch(level.L.row(near.vertices[i]).subspan(first, guess_.size()));
         }
     }
 

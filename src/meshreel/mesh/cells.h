@@ -81,7 +81,12 @@ private:
         constexpr std::uint64_t mask = (1u << 21) - 1;
         return (cube[0] & mask) | (cube[1] & mask) << 21 | (cube[2] & mask) << 42;
     }
-    std::size_t slot(std::uint64_t key) const { return static_cast<std::size_t>(key * 0x9e3779b97f4a7c15u >> shift_); }
+    /// Cubes in a row stand side by side: those around a place are in nine parts of memory, not in 27.
+    std::size_t slot(std::uint64_t key) const
+    {
+        const std::uint64_t x = key & ((1u << 21) - 1), row = (key >> 21) * 0x9e3779b97f4a7c15u >> shift_;
+        return static_cast<std::size_t>((row + x) & (begins_.size() - 2));
+    }
 
     Point low_;
     double scale_ = 1.0;
