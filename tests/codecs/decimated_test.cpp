@@ -82,7 +82,8 @@ TEST(RemovalJudge, CountsTheParallelogramsThatARemovalSaves)
     connectivity::Hole hole;
     ASSERT_TRUE(connectivity::find_hole(mesh, 55, hole));
     const double missed = 1 / judge.step(), bits = 0.5 * std::log2(1 + 4 * missed * missed);
-    EXPECT_NEAR(judge.price(average, mesh, 55, hole), bits - bits * 2 * static_cast<double>(hole.ring.size()) / 3, 1e-9);
+    EXPECT_NEAR(judge.price(average, mesh, 55, hole), bits - bits * 2 * static_cast<double>(hole.ring.size()) / 3,
+                1e-9);
     EXPECT_EQ(judge.inaccuracy(average, 55, hole.ring), 1);
 }
 
