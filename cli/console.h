@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 #include <string>
 #include <string_view>
 
@@ -41,13 +42,18 @@ private:
     std::chrono::steady_clock::time_point last_drawn_{};
 };
 
-/// Seconds since it was made.
+/// Seconds since it was made; and those that processors have worked since for this process, all its threads together.
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    double processor_seconds() const
+    {
+        return static_cast<double>(std::clock() - worked_) / static_cast<double>(CLOCKS_PER_SEC);
+    }
 
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::clock_t worked_ = std::clock();
 };
 
 /// The most memory this process has held so far, bytes.

@@ -54,12 +54,13 @@ public:
         if (long_one) return stream(figures, watch, console);
         const Stopwatch decoding;
         MESHREEL_TRY(const Animation animation, load(source_, console));
-        const double decode_seconds = decoding.seconds();
+        const double decode_seconds = decoding.seconds(), processor_seconds = decoding.processor_seconds();
         const unsigned long long decode_memory = peak_memory_bytes();
         MESHREEL_CHECK(save(animation, target_, console));
         add_counts(figures, animation);
         figures["raw_bytes"] = raw_bytes(animation);
         figures["decode_seconds"] = decode_seconds;
+        figures["decode_processor_seconds"] = processor_seconds;
         figures["decode_peak_memory_bytes"] = decode_memory;
         figures["seconds"] = watch.seconds();
         figures["peak_memory_bytes"] = peak_memory_bytes();
@@ -108,6 +109,7 @@ private:
         add_counts(figures, frames->still());
         figures["raw_bytes"] = raw_bytes(frames->still());
         figures["decode_seconds"] = watch.seconds(); // what is written meanwhile included
+        figures["decode_processor_seconds"] = watch.processor_seconds();
         figures["decode_peak_memory_bytes"] = peak_memory_bytes();
         figures["seconds"] = watch.seconds();
         figures["peak_memory_bytes"] = peak_memory_bytes();

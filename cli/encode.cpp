@@ -87,10 +87,11 @@ public:
         MESHREEL_TRY(const std::unique_ptr<FrameSource> frames, open(source_, console));
         const Stopwatch encoding;
         MESHREEL_TRY(const Encoded encoded, in_file(encode(*frames, options(base, console)), source_.path));
-        const double encode_seconds = encoding.seconds();
+        const double encode_seconds = encoding.seconds(), processor_seconds = encoding.processor_seconds();
         MESHREEL_CHECK(save_bytes(encoded.bytes, target_));
         MESHREEL_CHECK(add_figures(figures, *frames, encoded));
         figures["encode_seconds"] = encode_seconds;
+        figures["encode_processor_seconds"] = processor_seconds;
         figures["seconds"] = watch.seconds();
         figures["peak_memory_bytes"] = peak_memory_bytes();
         return Report{figures, summary(figures, frames->still())};

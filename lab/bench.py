@@ -9,6 +9,7 @@ import math
 import os
 import statistics
 import sys
+from collections import Counter
 
 import codings
 import plan
@@ -34,6 +35,7 @@ def arguments(words):
     parser.add_argument("--only", help="sequences, by comma")
     parser.add_argument("--points", type=int, help="so many of each curve's points, for a first look")
     parser.add_argument("--runs", type=int, help="how often each file is made, for the times (default: as the plan says)")
+    parser.add_argument("--fresh", action="store_true", help="also measure anew what another build of meshreel measured that makes the same files")
     parser.add_argument("--keep", action="store_true", help="also renew lab/results/PLAN.csv and the curves in docs/figures")
     return parser.parse_args(words)
 
@@ -57,20 +59,22 @@ def wanted(options):
                                              for coding in whole.codings))
 
 
-def codecs_of(curves, command):
+def codecs_of(curves, command, fresh=False):
     """{coding's name: what encodes and decodes it}."""
     peers = {peer.name: peer for peer in codings.peers_here()}
     of_build = lambda build: codings.Command(os.path.join(ROOT, build, "meshreel")) if build else command
-    return {coding.name: codings.PeerCodec(peers[coding.peer]) if coding.peer else codings.Codec(of_build(coding.build))
+    return {coding.name: codings.PeerCodec(peers[coding.peer]) if coding.peer else codings.Codec(of_build(coding.build), coding.points, fresh)
             for coding in curves.codings}
 
 
 def made_by(options, race, codecs):
     curves, checksums, loads = race.plan, race.sequences.checksums, race.outcome.loads
     lines = [f"commit {provenance.commit(ROOT)}", f"compiler {provenance.build(options.build)}", f"machine {provenance.machine()}",
-             f"load {statistics.median(loads or [math.nan]):.1f}, the median while measuring; above the number of cores, times are too long",
+             f"load {statistics.median(loads or [math.nan]):.1f}, the median while measuring; times are the processor's, single-threaded",
              f"meshreel sha256 {provenance.digest(os.path.join(options.build, 'meshreel'))[:16]}"]
-    lines += [f"{coding.name}: meshreel of {coding.build}, sha256 {codecs[coding.name].identity}" for coding in curves.codings if coding.build]
+    lines += [f"{coding.name}: meshreel of {coding.build}, sha256 {codecs[coding.name].command.identity}" for coding in curves.codings if coding.build]
+    others = Counter(race.outcome.programs) - Counter({codec.command.identity: len(race.outcome.programs) for codec in codecs.values() if isinstance(codec, codings.Codec)})
+    lines += [f"{count} files by meshreel sha256 {program}, which makes the same of small animations" for program, count in others.items()]
     lines += [f"{codec.peer.name}: {codec.version}" for codec in codecs.values() if isinstance(codec, codings.PeerCodec)]
     return lines + [f"{name} sha256 {checksum[:16]}" for name, checksum in sorted(checksums.items())]
 
@@ -97,13 +101,14 @@ def draw(folder, curves, outcome, only=None):
 
 def main(words=None):
     options = arguments(words)
+    os.environ |= {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")}  # before NumPy: peers have one thread too
     os.environ["MESHREEL_BUILD"] = os.path.abspath(options.build)  # where peers that are programs of ours are
     curves = wanted(options)
     out = options.out or os.path.join(options.build, "lab", curves.name)
     os.makedirs(out, exist_ok=True)
     command = codings.Command(os.path.join(options.build, "meshreel"))
     sequences = Sequences(command, options.data, os.path.join(options.cache, "made"))
-    codecs = codecs_of(curves, command)
+    codecs = codecs_of(curves, command, options.fresh)
     race = Race(curves, command, sequences, Journal(os.path.join(options.cache, "journal.jsonl")))
     outcome = race.run(codecs)
     for why in outcome.skipped:

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: MIT
 import os
 import shutil
-import statistics
 import sys
 import tempfile
 import time
@@ -30,6 +29,7 @@ class Outcome:
     skipped: list = field(default_factory=list)  # sentences
     seconds: float = 0.0                         # of the work, with what was remembered
     loads: list = field(default_factory=list)    # of the machine, at each measurement
+    programs: list = field(default_factory=list)  # the build of meshreel that made each row, where one did
 
 
 def label(point):
@@ -136,7 +136,7 @@ class Race:
             return record
 
     def row(self, entrant):
-        """The median times of all turns, with the size and the errors of the first."""
+        """The least times of all turns, as what disturbs a processor only adds to them; the size and the errors of the first."""
         records = [record for turn in range(self.plan.runs) if (record := self.known(entrant, turn))]
         first, clip = records[0], entrant.clip
         self.outcome.seconds += sum(record["wall_s"] for record in records)
@@ -144,8 +144,9 @@ class Race:
         if len({record["bytes"] for record in records}) > 1:
             self.outcome.skipped.append(f"{clip.name}: {entrant.coding.name}, {label(entrant.point)}: its size is not the same in every turn")
         self.outcome.about |= {name: {key: found[key] for key in ("title", "unit", "better")} for name, found in first["measures"].items()}
+        self.outcome.programs += {record["program"] for record in records if "program" in record}
         samples = clip.V * clip.F
-        encode_s, decode_s = (statistics.median(record[key] for record in records) for key in ("encode_s", "decode_s"))
+        encode_s, decode_s = (min(record[key] for record in records) for key in ("encode_s", "decode_s"))
         return {"sequence": clip.name, "coding": entrant.coding.name, "setting": label(entrant.point), "V": clip.V, "F": clip.F,
                 "bytes": first["bytes"], "bpfv": 8 * first["bytes"] / samples,  # (9.1)
                 **{name: found["value"] for name, found in first["measures"].items()},

@@ -12,7 +12,7 @@ class PeerError(Exception):
 
 @dataclass(frozen=True)
 class Run:
-    """Files that came out (encode: the whole of what is counted; decode: one PC2 file), and the peer's own seconds."""
+    """Files that came out (encode: the whole of what is counted; decode: one PC2 file), and the peer's own processor seconds."""
     files: list
     seconds: float
 
@@ -34,13 +34,14 @@ class Peer:
 
 
 class Stopwatch:
-    """Seconds of one thread's work between the files that were read and those that will be written."""
+    """Seconds that a processor works for this process between the files that were read and those that will be written: a busy
+    machine does not stretch them."""
 
     def __init__(self):
         self.seconds = 0.0
 
     @contextmanager
     def running(self):
-        start = time.perf_counter()
+        start = time.process_time()
         yield
-        self.seconds += time.perf_counter() - start
+        self.seconds += time.process_time() - start
