@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz foreign bench bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm figures format docs clean
+.PHONY: build demo check test fuzz foreign bench bench-ablation bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -31,6 +31,12 @@ bench:          ## speeds and memory; KEEP=1: into docs/benchmarks.md
 	build-bench/bench/bench_space_time
 	$(if $(KEEP),lab/take.py speeds build-bench/speeds.csv && lab/take.py player build-bench/player.txt)
 	$(if $(KEEP),lab/take.py measures build-bench/measures.txt && lab/tables.py)
+
+bench-ablation: ## what each idea of the default codec is worth: docs/ablation.md, its picture, lab/results/ablation.csv
+	tools/install.sh --with-figures
+	cmake --preset release
+	cmake --build build --target meshreel-cli
+	lab/ablation.py $(if $(DATA),--data $(DATA)) && lab/tables.py
 
 bench-effort: build ## the table of docs/effort.md
 	bench/effort.py --write

@@ -63,14 +63,14 @@ def codecs_of(curves, command, fresh=False):
     """{coding's name: what encodes and decodes it}."""
     peers = {peer.name: peer for peer in codings.peers_here()}
     of_build = lambda build: codings.Command(os.path.join(ROOT, build, "meshreel")) if build else command
-    return {coding.name: codings.PeerCodec(peers[coding.peer]) if coding.peer else codings.Codec(of_build(coding.build), coding.points, fresh)
+    return {coding.name: codings.PeerCodec(peers[coding.peer]) if coding.peer else codings.Codec(of_build(coding.build), coding.points, fresh or bool(coding.build))
             for coding in curves.codings}
 
 
 def made_by(options, race, codecs):
     curves, checksums, loads = race.plan, race.sequences.checksums, race.outcome.loads
     lines = [f"commit {provenance.commit(ROOT)}", f"compiler {provenance.build(options.build)}", f"machine {provenance.machine()}",
-             f"load {statistics.median(loads or [math.nan]):.1f}, the median while measuring; times are the processor's, single-threaded",
+             f"load {statistics.median(loads or [math.nan]):.1f}, the median while measuring; times are the processor's, at one thread",
              f"meshreel sha256 {provenance.digest(os.path.join(options.build, 'meshreel'))[:16]}"]
     lines += [f"{coding.name}: meshreel of {coding.build}, sha256 {codecs[coding.name].command.identity}" for coding in curves.codings if coding.build]
     others = Counter(race.outcome.programs) - Counter({codec.command.identity: len(race.outcome.programs) for codec in codecs.values() if isinstance(codec, codings.Codec)})

@@ -4,7 +4,7 @@ import tomllib
 from dataclasses import dataclass, field
 
 ROW_KEYS = {"measure", "common", "coding", "sequence"}
-CURVE_KEYS = {"title", "anchor", "runs", "measures", "peers"}  # what only a plan of curves has; lab/bench.py runs those
+CURVE_KEYS = {"title", "anchor", "runs", "decodes", "measures", "peers"}  # what only a plan of curves has; lab/bench.py runs those
 MEASURES = ["kg", "sted", "max_error_relative"]
 
 
@@ -39,6 +39,7 @@ class Curves:
     measures: tuple  # values of `compare`
     sequences: dict  # name: how it is generated, or {} where it is data
     codings: tuple
+    decodes: int = 1  # how often it is decoded each time, for times that are short
 
 
 class PlanError(Exception):
@@ -96,7 +97,7 @@ def curves_of(plan, name, peers=()):
         raise PlanError(f"anchor {plan['anchor']}: no such coding")
     sequences = {sequence: table.get("made", {}) for sequence, table in plan["sequence"].items()}
     return Curves(name, plan.get("title", name), plan.get("anchor", names[0]), plan.get("runs", 3),
-                  tuple(plan.get("measures", MEASURES)), sequences, tuple(codings))
+                  tuple(plan.get("measures", MEASURES)), sequences, tuple(codings), plan.get("decodes", 1))
 
 
 def read(path):

@@ -128,7 +128,8 @@ class Race:
         clip, point = entrant.clip, entrant.point
         with tempfile.TemporaryDirectory() as folder:
             files = entrant.codec.encode(clip, point, folder)
-            back, seconds = entrant.codec.decode(files.paths, point, folder)
+            decoded = [entrant.codec.decode(files.paths, point, folder) for _ in range(self.plan.decodes)]
+            back, seconds = decoded[0][0], min(seconds for _, seconds in decoded)
             record = {"sequence": clip.name, "coding": entrant.coding.name, "point": point, "turn": turn, "bytes": files.size,
                       "encode_s": files.seconds, "decode_s": seconds, **files.told}
             if turn == 0:

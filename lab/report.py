@@ -9,7 +9,7 @@ from verdicts import at_error, deltas, mean_delta
 
 PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
 FIXED_AXES = [{"key": "bpfv", "title": "rate", "unit": "bits per frame and vertex"}, {"key": "bytes", "title": "size", "unit": "bytes"},
-              {"key": "encode_mvs", "title": "encoding", "unit": "M vertices/s"}, {"key": "decode_mvs", "title": "decoding", "unit": "M vertices/s"}]
+              {"key": "encode_mvs", "title": "encoding", "unit": "M vertices a processor second"}, {"key": "decode_mvs", "title": "decoding", "unit": "M vertices a processor second"}]
 COMPARED_AT = {"kg": 0.1, "sted": 0.03}  # errors at which rates and speeds are set side by side
 
 
@@ -88,7 +88,7 @@ def level_section(known):
                 for coding in known["codings"] if any(name == coding["name"] for _, name in found)]
         if rows:
             parts += [f"<h2>At {html.escape(about['title'])} {COMPARED_AT[measure]:g} {html.escape(about['unit'] or '')}</h2>",
-                      "<p>Bits per frame and vertex / decoding, million vertices a second; logarithms interpolated between the points around.</p>",
+                      "<p>Bits per frame and vertex / decoding, million vertices a processor second; logarithms interpolated between the points around.</p>",
                       table(["", *known["sequences"]], rows)]
     return f"<section>{''.join(parts)}</section>"
 
@@ -121,9 +121,10 @@ def background(known):
     items = lambda words: "<ul>" + "".join(f"<li>{html.escape(word)}</li>" for word in words) + "</ul>"
     counts = table(["coding", "what its size counts"], [[coding["name"], cell(coding["counts"], "words")] for coding in known["codings"]])
     skipped = f"<h2>Not measured</h2>{items(known['skipped'])}" if known["skipped"] else ""
+    least = f"the least of {known['runs']} runs in turn" if known["runs"] > 1 else "in one run"
     return (f"<section><h2>What is counted</h2>{counts}{skipped}<h2>Made by</h2>"
-            f"<p>Sizes are of whole files; errors are measured on what was decoded; times are a program's own, on one thread, the medians of "
-            f"{known['runs']} runs in turn.</p>{items(known['made_by'])}</section>")
+            f"<p>Sizes are of whole files; errors are measured on what was decoded; times are a program's own, what the processor worked for it at one "
+            f"thread, {least}.</p>{items(known['made_by'])}</section>")
 
 
 def part(name):

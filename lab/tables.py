@@ -4,10 +4,13 @@
 A table stands between two comments that name it; the newest release is whatever heads the CHANGELOG."""
 # SPDX-License-Identifier: MIT
 import argparse
+import math
 import os
 import re
+import statistics
 import sys
 
+import ideas
 import plan
 import releases
 import verdicts
@@ -131,6 +134,20 @@ def level_table(name, measure, error):
                                        for coding in dict.fromkeys(row["coding"] for row in rows) if any(key[1] == coding for key in found)])
 
 
+def speed_table(name, error):
+    """How fast a plan's codings are at one KG error, or without loss: geometric means over the sequences on which they reach it."""
+    rows = numbers(releases.read(name))
+    found = {key: value[1:] for key, value in verdicts.at_error(rows, "kg", error).items()}
+    found |= {(row["sequence"], row["coding"]): (row["encode_mvs"], row["decode_mvs"]) for row in rows if row["max_error_relative"] == 0}
+    lines = []
+    for coding in dict.fromkeys(row["coding"] for row in rows):
+        mine = [speeds for (_, name), speeds in found.items() if name == coding]
+        if mine:
+            means = (math.exp(statistics.fmean(math.log(speed) for speed in side)) for side in zip(*mine))
+            lines.append([coding, *(f"{speed:.3g}" for speed in means), len(mine)])
+    return markdown(["M vertices a processor second", "encode", "decode", "sequences"], lines)
+
+
 def exact_table(name):
     """The rate of what comes back bit for bit."""
     rows = [row for row in numbers(releases.read(name)) if row["max_error_relative"] == 0]
@@ -159,11 +176,42 @@ def lossless_table(name):
     return markdown(["sequence", *codings], [[name, *cells(name)] for name in sequences])
 
 
+def percent(value):
+    return "–" if value is None else f"{value:+.1f}" if abs(value) < 100 else f"{value:+.0f}"
+
+
+def idea_table():
+    """A row an idea: what it is worth in the mean over sequences, in bits and in time."""
+    rows, known = numbers(releases.read("ablation")), ideas.read()
+    columns = {"bits at equal KG": ideas.worth(rows, "kg"), "at equal STED": ideas.worth(rows, "sted"),
+               "encoding": ideas.times(rows, "encode_s"), "decoding": ideas.times(rows, "decode_s")}
+    return markdown(["", "the idea", "without it", *columns],
+                    [[name, known[name].idea, known[name].without, *(percent(ideas.mean(ideas.of(found, name))) for found in columns.values())]
+                     for name in ideas.sorted_ideas(rows)])
+
+
+def idea_sequences(what):
+    """A row an idea, a column a sequence; what(rows): {(sequence, idea): percent}."""
+    rows = numbers(releases.read("ablation"))
+    found, sequences = what(rows), list(dict.fromkeys(row["sequence"] for row in rows))
+    return markdown(["%", *sequences, "mean"], [[name, *(percent(found.get((sequence, name))) for sequence in sequences),
+                                                 percent(ideas.mean(ideas.of(found, name)))] for name in ideas.sorted_ideas(rows)])
+
+
+def idle_ideas():
+    """The ideas that no sequence needs."""
+    rows, known = numbers(releases.read("ablation")), ideas.read()
+    names = ideas.worth_nothing(rows)
+    said = f"without which no sequence's files are larger by {ideas.NOTHING} % or more, neither at equal KG error nor at equal STED"
+    return [f"Ideas {said}: {'; '.join(f'**{name}** ({known[name].idea})' for name in names) or 'none'}."]
+
+
 def made_by(name):
     """What the head of a plan's CSV file says, as one paragraph."""
     with open(os.path.join(releases.RESULTS, name + ".csv"), encoding="utf-8") as file:
         words = [line.removeprefix("#").strip() for line in file if line.startswith("#")]
-    return ["Made by: " + "; ".join(word for word in words if word.split(" ")[0] in ("plan", "commit", "compiler", "machine")) + "."]
+    told = lambda line: line.split(" ")[0] in ("plan", "commit", "compiler", "machine", "load") or " files by meshreel " in line
+    return ["Made by: " + "; ".join(filter(told, words)) + "."]
 
 
 TABLES = {
@@ -174,6 +222,7 @@ TABLES = {
         "everyone, STED": lambda: delta_table("everyone", "sted"),
         "everyone, largest error": lambda: delta_table("everyone", "max_error_relative"),
         "everyone at KG 0.1 %": lambda: level_table("everyone", "kg", 0.1),
+        "everyone, speeds": lambda: speed_table("everyone", 0.1),
         "everyone without loss": lambda: exact_table("everyone"),
         "everyone, made by": lambda: made_by("everyone"),
         "codecs, KG": lambda: delta_table("codecs", "kg"),
@@ -185,6 +234,15 @@ TABLES = {
         "opening": lambda: player_table(of_newest("player"), OPENING, "open_1"),
         "measures": lambda: measure_table(of_newest("measures")),
         "scale": lambda: plain_table(of_newest("scale"), SCALE),
+    },
+    "docs/ablation.md": {
+        "ideas": idea_table,
+        "ideas worth nothing": idle_ideas,
+        "ideas, KG": lambda: idea_sequences(lambda rows: ideas.worth(rows, "kg")),
+        "ideas, STED": lambda: idea_sequences(lambda rows: ideas.worth(rows, "sted")),
+        "ideas, encoding": lambda: idea_sequences(lambda rows: ideas.times(rows, "encode_s")),
+        "ideas, decoding": lambda: idea_sequences(lambda rows: ideas.times(rows, "decode_s")),
+        "ideas, made by": lambda: made_by("ablation"),
     },
     "docs/peers.md": {
         "peers at KG 0.5 %": lambda: rate_table("peers", "kg", 0.5),

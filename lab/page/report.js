@@ -129,8 +129,8 @@ function draw() {
   history.replaceState(null, "", "#" + new URLSearchParams({ ...now, hidden: [...hidden].join("|") }));
 }
 
-/// bits per frame and vertex: bpfv; % of the body diagonal: %.
-const shortUnit = (unit) => unit.startsWith("bits") ? "bpfv" : unit.startsWith("%") ? "%" : unit;
+/// bits per frame and vertex: bpfv; % of the body diagonal: %; M vertices a processor second: M/s.
+const shortUnit = (unit) => unit.startsWith("bits") ? "bpfv" : unit.startsWith("%") ? "%" : unit.startsWith("M ") ? "M/s" : unit;
 
 function tip(curve, point) {
   const box = document.createElement("div"), table = document.createElement("table"), name = document.createElement("b");

@@ -1,0 +1,108 @@
+#!/usr/bin/python3
+"""The ideas of the default codec, what each is worth by lab/results/ablation.csv, and pictures of that."""
+# SPDX-License-Identifier: MIT
+import glob
+import math
+import os
+import re
+from dataclasses import dataclass
+
+import releases
+
+PATCHES = os.path.join(releases.ROOT, "lab/ablation")
+PICTURES = [os.path.join(releases.ROOT, "docs/figures", name) for name in ("ablation.svg", "ablation-narrow.svg")]
+WHOLE = "reel"  # the coding that lacks nothing
+NOTHING = 0.5   # percent: what is worth less on every sequence is worth nothing
+
+
+@dataclass(frozen=True)
+class Idea:
+    """name: the patch's. idea: what the codec does. without: what the patched one does instead."""
+    name: str
+    idea: str
+    without: str
+    path: str
+
+
+def read_one(path):
+    with open(path, encoding="utf-8") as file:
+        said = dict(line.rstrip("\n").split(": ", 1) for line in (file.readline(), file.readline()))
+    return Idea(os.path.basename(path).removesuffix(".patch"), said["idea"], said["without"], path)
+
+
+def read(folder=PATCHES):
+    """{name: idea} of all patches."""
+    return {idea.name: idea for idea in map(read_one, sorted(glob.glob(os.path.join(folder, "*.patch"))))}
+
+
+def touched(idea):
+    """The files that a patch changes."""
+    with open(idea.path, encoding="utf-8") as file:
+        return re.findall(r"^\+\+\+ b/(.+)$", file.read(), re.M)
+
+
+def wholes(rows):
+    """{sequence: the rows of the whole codec there}."""
+    found = {}
+    for row in rows:
+        if row["coding"] == WHOLE:
+            found.setdefault(row["sequence"], []).append(row)
+    return found
+
+
+def rate_at(curve, measure, error):
+    """The rate of a curve's rows at an error: straight lines in logarithms, the outermost prolonged."""
+    points = sorted((math.log(row[measure]), math.log(row["bpfv"])) for row in curve)
+    x = math.log(error)
+    a, b = next((pair for pair in zip(points, points[1:]) if x <= pair[1][0]), points[-2:])
+    return math.exp(a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]))
+
+
+def worth(rows, measure):
+    """{(sequence, idea): percent that its file is larger without it than the whole codec's of the same error}."""
+    whole = wholes(rows)
+    return {(row["sequence"], row["coding"]): 100 * (row["bpfv"] / rate_at(whole[row["sequence"]], measure, row[measure]) - 1)
+            for row in rows if row["coding"] != WHOLE and row["sequence"] in whole}
+
+
+def times(rows, which):
+    """{(sequence, idea): percent that encoding or decoding takes longer without it}, of files of the same setting."""
+    whole = {(sequence, row["setting"]): row for sequence, found in wholes(rows).items() for row in found}
+    return {(row["sequence"], row["coding"]): 100 * (row[which] / whole[row["sequence"], row["setting"]][which] - 1)
+            for row in rows if row["coding"] != WHOLE and (row["sequence"], row["setting"]) in whole}
+
+
+def mean(values):
+    """Of percentages, as factors."""
+    values = list(values)
+    return 100 * (math.exp(sum(math.log(1 + value / 100) for value in values) / len(values)) - 1) if values else None
+
+
+def of(found, coding):
+    return [value for (_, name), value in found.items() if name == coding]
+
+
+def sorted_ideas(rows):
+    """Names, the most valuable at equal KG first."""
+    found = worth(rows, "kg")
+    return sorted({name for _, name in found}, key=lambda name: -mean(of(found, name)))
+
+
+def worth_nothing(rows):
+    """Names of ideas without which no sequence's files are larger by NOTHING percent, at equal KG or STED."""
+    both = [worth(rows, measure) for measure in ("kg", "sted")]
+    return [name for name in sorted_ideas(rows) if all(value < NOTHING for found in both for value in of(found, name))]
+
+
+def main():
+    from bars import Bars
+    from tables import numbers
+    rows = numbers(releases.read("ablation"))
+    found = {"at equal KG": worth(rows, "kg"), "at equal STED": worth(rows, "sted")}
+    bars = Bars(found, list(dict.fromkeys(row["sequence"] for row in rows)), sorted_ideas(rows))
+    bars.wide(PICTURES[0])
+    bars.narrow(PICTURES[1])
+
+
+if __name__ == "__main__":
+    main()
