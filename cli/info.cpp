@@ -40,6 +40,8 @@ Json reel_json(const Source& source, const Info& what, std::size_t file_bytes)
     figures["order"] = order_name(what.order);
     figures["coded_vertices"] = what.coded_vertices;
     figures["file_bytes"] = file_bytes;
+    figures["decoded_bytes"] = what.decoded_bytes;
+    figures["warnings"] = what.warnings;
     const double samples = static_cast<double>(what.vertices) * static_cast<double>(what.frames);
     figures["bpfv"] = samples > 0.0 ? Json(8.0 * static_cast<double>(file_bytes) / samples) : Json(nullptr);
     figures["chunks"] = Json::array();
@@ -136,6 +138,7 @@ private:
     {
         MESHREEL_TRY(const Bytes bytes, read_file(source_.path, source_.limits));
         MESHREEL_TRY(const Info what, in_file(info(bytes, source_.limits), source_.path));
+        for (const std::string& warning : what.warnings) console.warn(source_.path + ": " + warning);
         Report report{reel_json(source_, what, bytes.size()), reel_text(source_, what, bytes.size()), true};
         if (!levels_) return report;
         MESHREEL_TRY(const Animation base, load_base(source_, console));

@@ -162,7 +162,7 @@ int guarded(const std::vector<std::string>& arguments, Console& console)
     try {
         return dispatch(arguments, console);
     } catch (const std::bad_alloc&) {
-        return fail({ErrorCode::runtime, "there is not enough memory"}, console);
+        return fail({ErrorCode::runtime, "out of memory"}, console);
     } catch (const Misuse& misuse) {
         return fail(usage(misuse.what()), console);
     } catch (const std::exception& error) {

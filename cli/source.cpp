@@ -74,6 +74,12 @@ void Source::declare_limits(CLI::App& app)
     add_parsed(app, {"--max-memory", "memory that a file may make us hold; default 16G"}, limits.max_memory,
                parse_memory)
         ->type_name("SIZE");
+    app.add_option("--max-expansion", limits.max_expansion,
+                   "bytes that a byte of a .reel file may become, beyond 64 MiB; default 1000000")
+        ->type_name("N");
+    app.add_option("--max-work", limits.max_work,
+                   "multiplications that a byte of a .reel file may cause, beyond 256 a coordinate; default 1000000")
+        ->type_name("N");
 }
 
 std::string Source::format_name() const

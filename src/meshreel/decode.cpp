@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "meshreel/base/memory.h"
+#include "meshreel/base/text.h"
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/explain.h"
 #include "meshreel/container/package.h"
@@ -32,7 +34,15 @@ struct Opening {
     const StreamReader& file;
     const Header& header;
     container::SegmentSource& segments;
+    std::uint64_t file_bytes;
 };
+
+/// What all frames and triangles of a file take.
+std::uint64_t decoded_bytes(const Header& header)
+{
+    constexpr std::uint64_t bytes_a_position = 12, bytes_a_triangle = 12;
+    return bytes_a_position * header.vertex_count * header.frame_count + bytes_a_triangle * header.triangle_count;
+}
 
 /// How much of a payload a level needs. Levels are the first segment's: of others it may need everything.
 Result<std::uint64_t> bytes_of_level(const codecs::Codec& codec, const container::Segment& beginning,
@@ -53,7 +63,7 @@ Result<Level> level_asked_for(const Opening& reel, const codecs::Codec& codec, c
 
 Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
 {
-    const auto& [file, header, segments] = reel;
+    const auto& [file, header, segments, file_bytes] = reel;
     Animation animation;
     animation.vertex_count = header.vertex_count;
     container::Budget times_budget(options.limits.max_memory);
@@ -63,6 +73,7 @@ Result<Animation> unpacked(const Opening& reel, const DecodeOptions& options)
     const std::uint64_t most = std::min(options.limits.max_frames, options.limits.max_memory / 12 / vertices);
     MESHREEL_TRY(ShownFrames shown, shown_frames(times, animation.meta, options, most));
     MESHREEL_CHECK(within(options.limits, vertices, header.triangle_count, shown.mixes.size()));
+    MESHREEL_CHECK(within_expansion(options.limits, decoded_bytes(header), file_bytes));
     MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
     MESHREEL_CHECK(check_level(*codec, options.level));
     MESHREEL_TRY(connectivity::Topology topology, codecs::read_topology(file, header, options.base));
@@ -120,28 +131,47 @@ Status read_names(const StreamReader& file, Info& info)
 
 Result<Animation> decode(ByteView reel, const DecodeOptions& options)
 {
-    MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, options.limits));
-    MESHREEL_TRY(const Header header, container::read_header(file));
-    MESHREEL_TRY(container::SegmentList segments, container::SegmentList::open(file, header));
-    return unpacked({file, header, segments}, options);
+    return within_memory([&]() -> Result<Animation> {
+        MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, options.limits));
+        MESHREEL_TRY(const Header header, container::read_header(file));
+        MESHREEL_TRY(container::SegmentList segments, container::SegmentList::open(file, header));
+        return unpacked({file, header, segments, reel.size()}, options);
+    });
 }
 
 Result<Animation> decode(ByteSource& reel, const DecodeOptions& options)
 {
-    MESHREEL_TRY(const StreamReader head, open_parts(reel, options));
-    MESHREEL_TRY(const Header header, container::read_header(head));
-    container::SegmentFetcher segments(reel, head, header);
-    if (options.level > 0) {
-        MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
-        MESHREEL_CHECK(check_level(*codec, options.level));
-        segments.fetch_only([codec, &options](const container::Segment& beginning) {
-            return bytes_of_level(*codec, beginning, options);
-        });
-    }
-    return unpacked({head, header, segments}, options);
+    return within_memory([&]() -> Result<Animation> {
+        MESHREEL_TRY(const StreamReader head, open_parts(reel, options));
+        MESHREEL_TRY(const Header header, container::read_header(head));
+        container::SegmentFetcher segments(reel, head, header);
+        if (options.level > 0) {
+            MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
+            MESHREEL_CHECK(check_level(*codec, options.level));
+            segments.fetch_only([codec, &options](const container::Segment& beginning) {
+                return bytes_of_level(*codec, beginning, options);
+            });
+        }
+        return unpacked({head, header, segments, reel.size()}, options);
+    });
 }
 
-Result<Info> info(ByteView reel, const DecodeLimits& limits)
+namespace {
+
+/// What a reader should know before it decodes.
+std::vector<std::string> warnings_of(const Header& header, std::uint64_t file_bytes, const DecodeLimits& limits)
+{
+    std::vector<std::string> warnings;
+    const std::uint64_t bytes = decoded_bytes(header);
+    if (bytes / Info::usual_expansion > file_bytes)
+        warnings.push_back(concat("unpacks to ", bytes, " bytes, ", bytes / file_bytes, " times its size"));
+    for (const Status& refused : {within(limits, header.vertex_count, header.triangle_count, header.frame_count),
+                                  within_expansion(limits, bytes, file_bytes)})
+        if (!refused.ok()) warnings.push_back(joined("will not be decoded: ", refused.error().message));
+    return warnings;
+}
+
+Result<Info> look_at(ByteView reel, const DecodeLimits& limits)
 {
     MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, limits));
     MESHREEL_TRY(const Header header, container::read_header(file));
@@ -157,6 +187,8 @@ Result<Info> info(ByteView reel, const DecodeLimits& limits)
     info.triangles = header.triangle_count;
     info.frames = header.frame_count;
     info.order = header.order;
+    info.decoded_bytes = decoded_bytes(header);
+    info.warnings = warnings_of(header, reel.size(), limits);
     info.start_s = times.front();
     info.end_s = times.back();
     MESHREEL_TRY(info.meta, container::read_metadata(file));
@@ -169,17 +201,27 @@ Result<Info> info(ByteView reel, const DecodeLimits& limits)
     return info;
 }
 
+} // namespace
+
+Result<Info> info(ByteView reel, const DecodeLimits& limits)
+{
+    return within_memory([&] { return look_at(reel, limits); });
+}
+
 Result<std::string> explain(ByteView reel, const DecodeLimits& limits)
 {
-    MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, limits));
-    return container::explain(
-        file, [&](const Header& header, container::Tag type, container::Source payload, std::string& lines) -> Status {
-            if (type == container::type::conn)
-                return container::explain_fields<connectivity::PayloadFields>(payload, limits, lines);
-            if (type != container::type::segm) return Ok{};
-            MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
-            return codec->explain(payload, limits, lines);
-        });
+    return within_memory([&]() -> Result<std::string> {
+        MESHREEL_TRY(const StreamReader file, StreamReader::open(reel, limits));
+        return container::explain(
+            file,
+            [&](const Header& header, container::Tag type, container::Source payload, std::string& lines) -> Status {
+                if (type == container::type::conn)
+                    return container::explain_fields<connectivity::PayloadFields>(payload, limits, lines);
+                if (type != container::type::segm) return Ok{};
+                MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
+                return codec->explain(payload, limits, lines);
+            });
+    });
 }
 
 Status check_reel(ByteView reel, const DecodeOptions& options)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "meshreel/base/memory.h"
 #include "meshreel/base/text.h"
 #include "meshreel/codecs/codec.h"
 #include "meshreel/coding/quantiser.h"
@@ -441,23 +442,27 @@ Status check_base(const Animation& animation, const EncodeOptions& options)
 
 Result<Encoded> encode(const Animation& animation, const EncodeOptions& options)
 {
-    MESHREEL_CHECK(validate(animation));
-    HeldFrames frames(animation);
-    return encode(frames, options);
+    return within_memory([&]() -> Result<Encoded> {
+        MESHREEL_CHECK(validate(animation));
+        HeldFrames frames(animation);
+        return encode(frames, options);
+    });
 }
 
 Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options)
 {
-    MESHREEL_CHECK(validate_still(frames.still()));
-    MESHREEL_CHECK(check_quality(options.quality));
-    MESHREEL_CHECK(check_effort(options.effort));
-    MESHREEL_CHECK(check_base(frames.still(), options));
-    const codecs::Codec* codec = codecs::find(options.codec);
-    if (codec == nullptr) return usage(concat("there is no codec \"", options.codec, "\""));
-    if (codec->exact() && asks_anything(options.quality))
-        return usage(concat("the codec ", options.codec, " loses nothing: it has no quality to choose"));
-    MESHREEL_TRY(const std::unique_ptr<Encoding> encoding, Encoding::begin(frames, options, *codec));
-    return encoding->encode();
+    return within_memory([&]() -> Result<Encoded> {
+        MESHREEL_CHECK(validate_still(frames.still()));
+        MESHREEL_CHECK(check_quality(options.quality));
+        MESHREEL_CHECK(check_effort(options.effort));
+        MESHREEL_CHECK(check_base(frames.still(), options));
+        const codecs::Codec* codec = codecs::find(options.codec);
+        if (codec == nullptr) return usage(concat("there is no codec \"", options.codec, "\""));
+        if (codec->exact() && asks_anything(options.quality))
+            return usage(concat("the codec ", options.codec, " loses nothing: it has no quality to choose"));
+        MESHREEL_TRY(const std::unique_ptr<Encoding> encoding, Encoding::begin(frames, options, *codec));
+        return encoding->encode();
+    });
 }
 
 } // namespace meshreel

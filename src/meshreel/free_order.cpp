@@ -1,5 +1,6 @@
 /// Animations numbered as a file without order numbers them, to compare a decoded file with its original.
 // SPDX-License-Identifier: MIT
+#include "meshreel/base/memory.h"
 #include "meshreel/connectivity/topology.h"
 #include "meshreel/mesh/reorder.h"
 #include "meshreel/mesh/weld.h"
@@ -41,11 +42,13 @@ private:
 
 Result<std::unique_ptr<FrameSource>> in_free_order(FrameSource& source, Threads threads)
 {
-    MESHREEL_TRY(const Weld welded, weld(source, {.threads = threads}));
-    const Animation& still = source.still();
-    const connectivity::Encoded order =
-        connectivity::encode({still.vertex_count, still.triangles, welded.unique_of}, Order::free);
-    return std::unique_ptr<FrameSource>(std::make_unique<ReorderedFrames>(source, order));
+    return within_memory([&]() -> Result<std::unique_ptr<FrameSource>> {
+        MESHREEL_TRY(const Weld welded, weld(source, {.threads = threads}));
+        const Animation& still = source.still();
+        const connectivity::Encoded order =
+            connectivity::encode({still.vertex_count, still.triangles, welded.unique_of}, Order::free);
+        return std::unique_ptr<FrameSource>(std::make_unique<ReorderedFrames>(source, order));
+    });
 }
 
 Animation in_free_order(const Animation& animation, Threads threads)

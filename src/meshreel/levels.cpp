@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshreel/base/memory.h"
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/package.h"
 #include "meshreel/container/segments.h"
@@ -69,22 +70,24 @@ Result<std::vector<std::uint64_t>> level_bytes(const container::StreamReader& fi
 
 Result<std::vector<LevelInfo>> levels(ByteView reel, const DecodeOptions& options)
 {
-    MESHREEL_TRY(const container::StreamReader file, container::StreamReader::open(reel, options.limits));
-    MESHREEL_TRY(const container::Header header, container::read_header(file));
-    MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
-    MESHREEL_TRY(const std::vector<std::uint64_t> bytes, level_bytes(file, header, *codec));
-    DecodeOptions some = options;
-    some.fps = {};
-    some.frames = {0, header.frame_count - 1, (header.frame_count - 1) / most_measured_frames + 1};
-    some.level = 0;
-    MESHREEL_TRY(const Animation fine, decode(reel, some));
-    std::vector<LevelInfo> result{{fine.vertex_count, fine.triangles.size(), bytes[0], 0.0, 0.0}};
-    for (some.level = 1; some.level < bytes.size(); ++some.level) {
-        MESHREEL_TRY(const Animation coarse, decode(reel, some));
-        result.push_back({coarse.vertex_count, coarse.triangles.size(), bytes[some.level], 0.0, 0.0});
-        measure(fine, coarse, options.threads, result.back());
-    }
-    return result;
+    return within_memory([&]() -> Result<std::vector<LevelInfo>> {
+        MESHREEL_TRY(const container::StreamReader file, container::StreamReader::open(reel, options.limits));
+        MESHREEL_TRY(const container::Header header, container::read_header(file));
+        MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
+        MESHREEL_TRY(const std::vector<std::uint64_t> bytes, level_bytes(file, header, *codec));
+        DecodeOptions some = options;
+        some.fps = {};
+        some.frames = {0, header.frame_count - 1, (header.frame_count - 1) / most_measured_frames + 1};
+        some.level = 0;
+        MESHREEL_TRY(const Animation fine, decode(reel, some));
+        std::vector<LevelInfo> result{{fine.vertex_count, fine.triangles.size(), bytes[0], 0.0, 0.0}};
+        for (some.level = 1; some.level < bytes.size(); ++some.level) {
+            MESHREEL_TRY(const Animation coarse, decode(reel, some));
+            result.push_back({coarse.vertex_count, coarse.triangles.size(), bytes[some.level], 0.0, 0.0});
+            measure(fine, coarse, options.threads, result.back());
+        }
+        return result;
+    });
 }
 
 } // namespace meshreel

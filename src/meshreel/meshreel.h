@@ -121,6 +121,11 @@ struct Info {
     };
     std::vector<Chunk> chunks;
     std::vector<std::uint64_t> level_bytes; ///< of the file that each level of detail takes, as LevelInfo::bytes
+    std::uint64_t decoded_bytes = 0;        ///< that all frames and triangles take: 12 (V F + T)
+    /// What a reader should know before it decodes: that the file unpacks to more than usual_expansion times its size (64 KB
+    /// for 100 bytes), or that these limits refuse it.
+    std::vector<std::string> warnings;
+    static constexpr std::uint64_t usual_expansion = 655;
 };
 Result<Info> info(ByteView reel, const DecodeLimits& limits = {});
 

@@ -1,5 +1,6 @@
 /// The frames of a .reel file, of which one segment is decoded at a time.
 // SPDX-License-Identifier: MIT
+#include "meshreel/base/memory.h"
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/segments.h"
 #include "meshreel/mesh/reorder.h"
@@ -13,7 +14,8 @@ class ReelFrames : public FrameSource {
 public:
     ReelFrames(ByteSource& file, container::StreamReader head, const container::Header& header,
                const DecodeOptions& options)
-        : head_(std::move(head)), header_(header), options_(options), segments_(file, head_, header_)
+        : head_(std::move(head)), header_(header), options_(options), file_bytes_(file.size()),
+          segments_(file, head_, header_)
     {
     }
 
@@ -22,6 +24,8 @@ public:
     {
         container::Budget budget(options_.limits.max_memory);
         MESHREEL_CHECK(within(options_.limits, header_.vertex_count, header_.triangle_count, 1));
+        const std::uint64_t bytes = 12 * std::uint64_t{header_.vertex_count} * header_.frame_count;
+        MESHREEL_CHECK(within_expansion(options_.limits, bytes, file_bytes_));
         MESHREEL_TRY(codec_, codecs::codec_of(header_));
         MESHREEL_TRY(topology_, codecs::read_topology(head_, header_, options_.base));
         still_.vertex_count = header_.vertex_count;
@@ -37,6 +41,12 @@ public:
 
     Result<MatrixView<const float>> frames(std::size_t first, std::size_t count, Matrix<float>& room) override
     {
+        return within_memory([&] { return decoded(first, count, room); });
+    }
+
+private:
+    Result<MatrixView<const float>> decoded(std::size_t first, std::size_t count, Matrix<float>& room)
+    {
         const std::size_t width = 3ul * still_.vertex_count;
         if (room.rows != count || room.cols != width) room = Matrix<float>(count, width);
         for (std::size_t i = 0; i < count; ++i) {
@@ -46,7 +56,6 @@ public:
         return MatrixView<const float>(room.view());
     }
 
-private:
     /// Decodes the segment that holds a frame.
     Status hold(std::uint32_t frame)
     {
@@ -66,6 +75,7 @@ private:
     container::StreamReader head_;
     container::Header header_;
     DecodeOptions options_;
+    std::uint64_t file_bytes_;
     container::SegmentFetcher segments_;
     const codecs::Codec* codec_ = nullptr;
     connectivity::Topology topology_;
@@ -78,14 +88,17 @@ private:
 
 Result<std::unique_ptr<FrameSource>> open_frames(ByteSource& reel, const DecodeOptions& options)
 {
-    const bool some = options.frames.first != 0 || options.frames.last < ~0ull || options.frames.step != 1;
-    if (some || options.fps || options.level != 0)
-        return Error{ErrorCode::usage, "frames are given as they are stored, all of them, in full detail", {}, {}, {}};
-    MESHREEL_TRY(container::StreamReader head, container::StreamReader::open_head(reel, options.limits));
-    MESHREEL_TRY(const container::Header header, container::read_header(head));
-    auto frames = std::make_unique<ReelFrames>(reel, std::move(head), header, options);
-    MESHREEL_CHECK(frames->open());
-    return std::unique_ptr<FrameSource>(std::move(frames));
+    return within_memory([&]() -> Result<std::unique_ptr<FrameSource>> {
+        const bool some = options.frames.first != 0 || options.frames.last < ~0ull || options.frames.step != 1;
+        if (some || options.fps || options.level != 0)
+            return Error{
+                ErrorCode::usage, "frames are given as they are stored, all of them, in full detail", {}, {}, {}};
+        MESHREEL_TRY(container::StreamReader head, container::StreamReader::open_head(reel, options.limits));
+        MESHREEL_TRY(const container::Header header, container::read_header(head));
+        auto frames = std::make_unique<ReelFrames>(reel, std::move(head), header, options);
+        MESHREEL_CHECK(frames->open());
+        return std::unique_ptr<FrameSource>(std::move(frames));
+    });
 }
 
 } // namespace meshreel

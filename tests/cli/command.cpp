@@ -88,6 +88,10 @@ Outcome run_in(const fs::path& folder, const std::vector<std::string>& arguments
         wait_for_a_file(folder);
         ::kill(child, SIGINT);
     }
+    if (start.killed_after_us > 0) {
+        ::usleep(start.killed_after_us);
+        ::kill(child, SIGKILL);
+    }
     Outcome outcome;
     outcome.exit_code = wait_for(child);
     outcome.out = slurp(streams / "out");

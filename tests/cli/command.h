@@ -27,6 +27,7 @@ struct Start {
     std::string error_file = {};           ///< standard error goes there instead of into Outcome::err
     unsigned long long largest_file = 0;   ///< bytes that a file may have; 0: any
     unsigned long long largest_memory = 0; ///< bytes of address space; 0: any
+    unsigned killed_after_us = 0;          ///< SIGKILL so many microseconds after its start; 0: never
     bool interrupt_at_first_file = false;  ///< SIGINT as soon as there is anything in the folder
 };
 

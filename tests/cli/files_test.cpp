@@ -97,7 +97,7 @@ TEST_F(Files, TooLittleMemoryIsASentence)
 {
     const Outcome outcome = run("generate wave a.pc2 --vertices 300000 --frames 2000", {.largest_memory = 1u << 30});
     EXPECT_EQ(outcome.exit_code, 4);
-    EXPECT_THAT(outcome.err, HasSubstr("not enough memory"));
+    EXPECT_THAT(outcome.err, HasSubstr("out of memory"));
     EXPECT_TRUE(files().empty());
 }
 #endif

@@ -122,12 +122,14 @@ AtomicFile::AtomicFile(std::string path, std::string temporary, int descriptor)
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})),
-      descriptor_(std::exchange(other.descriptor_, -1))
+      former_(std::exchange(other.former_, {})), descriptor_(std::exchange(other.descriptor_, -1)),
+      appeared_(other.appeared_)
 {
 }
 
 AtomicFile::~AtomicFile()
 {
+    if (!former_.empty()) ::unlink(former_.c_str());
     if (descriptor_ > 2) ::close(descriptor_);
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
@@ -144,10 +146,10 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite)
         return AtomicFile(path, {}, device);
     }
     if (there && !overwrite) return Error{ErrorCode::usage, "exists already; pass -y to overwrite it", {}, path, {}};
-    std::string temporary = temporary_name(path);
-    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) return system_error(path, "cannot write");
-    return AtomicFile(path, std::move(temporary), descriptor);
+    AtomicFile file(path, temporary_name(path), -1); // before there is a file that it would have to remove
+    file.descriptor_ = ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file.descriptor_ < 0) return system_error(path, "cannot write");
+    return file;
 }
 
 Status AtomicFile::write(ByteView bytes)
@@ -176,6 +178,27 @@ Status AtomicFile::commit()
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) return system_error(path_, "cannot rename into place");
     temporary_.clear();
     return Ok{};
+}
+
+Status AtomicFile::commit_revertibly()
+{
+    if (temporary_.empty()) return Ok{};
+    former_ = temporary_name(path_);
+    if (::link(path_.c_str(), former_.c_str()) != 0) {
+        former_.clear();
+        if (errno != ENOENT && errno != EPERM) // EPERM: a file system without links, which keeps nothing
+            return system_error(path_, "cannot keep what was there");
+    }
+    MESHREEL_CHECK(commit());
+    appeared_ = true;
+    return Ok{};
+}
+
+void AtomicFile::revert()
+{
+    if (!std::exchange(appeared_, false)) return;
+    if (former_.empty() || ::rename(former_.c_str(), path_.c_str()) != 0) ::unlink(path_.c_str());
+    former_.clear();
 }
 
 Status write_file(const std::string& path, ByteView bytes, bool overwrite)

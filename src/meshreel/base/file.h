@@ -53,15 +53,21 @@ public:
     Status write(ByteView bytes);
     /// All bytes are written: puts them on disk and frees the descriptor, so that thousands of files can wait for commit().
     Status finish();
-    /// Makes the file appear under its name, with all its bytes on disk.
+    /// Makes the file appear under its name, with all its bytes on disk. What had this name before is gone.
     Status commit();
+    /// The same, but revert() can bring back what was there, as long as this lives.
+    Status commit_revertibly();
+    /// After commit_revertibly(): as if it had not been.
+    void revert();
 
 private:
     AtomicFile(std::string path, std::string temporary, int descriptor);
 
     std::string path_;
     std::string temporary_; ///< empty once committed, and for standard output
+    std::string former_;    ///< what had the name before, under another one; empty: nothing, or it is not kept
     int descriptor_;
+    bool appeared_ = false; ///< under its name, by commit_revertibly()
 };
 
 /// Writes a whole file at once, by AtomicFile.

@@ -26,4 +26,31 @@ Status within(const DecodeLimits& limits, std::uint64_t vertices, std::uint64_t 
                             limits.max_memory, " bytes"));
 }
 
+namespace {
+
+/// Whether part <= per x count, which may be beyond 64 bits.
+bool at_most(std::uint64_t part, std::uint64_t per, std::uint64_t count)
+{
+    return count != 0 && (part / count < per || (part / count == per && part % count == 0));
+}
+
+} // namespace
+
+Status within_expansion(const DecodeLimits& limits, std::uint64_t decoded_bytes, std::uint64_t file_bytes)
+{
+    if (decoded_bytes <= DecodeLimits::free_bytes) return Ok{};
+    if (at_most(decoded_bytes - DecodeLimits::free_bytes, limits.max_expansion, file_bytes)) return Ok{};
+    return bad_input(concat(file_bytes, " bytes would become ", decoded_bytes, ", above the limit of ",
+                            limits.max_expansion, " each"));
+}
+
+Status within_work(const DecodeLimits& limits, std::uint64_t coordinates, std::uint64_t K, std::uint64_t segment_bytes)
+{
+    if (K <= DecodeLimits::free_work || coordinates == 0) return Ok{};
+    const std::uint64_t more = K - DecodeLimits::free_work, most = ~std::uint64_t{0} / coordinates;
+    if (more <= most && at_most(more * coordinates, limits.max_work, segment_bytes)) return Ok{};
+    return bad_input(concat(coordinates, " coordinates of ", K, " terms each are above the limit of ", limits.max_work,
+                            " multiplications a byte"));
+}
+
 } // namespace meshreel

@@ -63,7 +63,11 @@ void parallel_for(std::size_t count, Threads threads, const Body& body)
         }
     };
     std::vector<std::thread> pool;
-    for (std::size_t w = 1; w < workers; ++w) pool.emplace_back(work);
+    try {
+        pool.reserve(workers - 1);
+        while (pool.size() + 1 < workers) pool.emplace_back(work);
+    } catch (const std::exception&) { // no room or right for another thread: those that run do it all
+    }
     work();
     for (std::thread& thread : pool) thread.join();
     if (failure) std::rethrow_exception(failure);

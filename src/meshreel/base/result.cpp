@@ -16,13 +16,40 @@ std::string Error::sentence() const
 }
 
 #ifndef MESHREEL_DECODER_ALONE
+namespace {
+
+/// Made before it is needed, never changed; so short that its string is within it.
+Error& no_memory()
+{
+    static Error error{ErrorCode::runtime, "out of memory", {}, {}, {}};
+    return error;
+}
+
+} // namespace
+
 Failure::Failure(Error error) : error_(new Error(std::move(error))) {}
 
-Failure::Failure(const Failure& other) : error_(other.error_ == nullptr ? nullptr : new Error(*other.error_)) {}
+Failure::Failure(const Failure& other)
+    : error_(other.error_ == nullptr || other.error_ == &no_memory() ? other.error_ : new Error(*other.error_))
+{
+}
+
+Failure Failure::out_of_memory() noexcept
+{
+    Failure failure;
+    failure.error_ = &no_memory();
+    return failure;
+}
+
+Failure::operator Error() &&
+{
+    if (error_ == &no_memory()) return *error_;
+    return std::move(*error_);
+}
 
 void Failure::discard()
 {
-    delete error_;
+    if (error_ != &no_memory()) delete error_;
 }
 
 Failure bad_input(std::string_view message, std::string_view field, std::optional<Place> place)

@@ -52,6 +52,7 @@ class Failure {
 public:
     Failure() = default; ///< none
     Failure(Error error);
+    static Failure out_of_memory() noexcept; ///< needs none itself
     Failure(const Failure& other);
     Failure(Failure&& other) noexcept : error_(std::exchange(other.error_, nullptr)) {}
     Failure& operator=(Failure other) noexcept
@@ -64,9 +65,9 @@ public:
         if (error_ != nullptr) discard();
     }
 
-    Error& operator*() const { return *error_; }
+    const Error& operator*() const { return *error_; }
     operator Error() const& { return *error_; }
-    operator Error() && { return std::move(*error_); }
+    operator Error() &&;
 
 private:
     void discard();
@@ -94,7 +95,7 @@ public:
     const T* operator->() const { return &*value_; }
 
     const Error& error() const& { return *failure_; }
-    Error&& error() && { return std::move(*failure_); }
+    Error error() && { return std::move(failure_); }
     Failure&& failure() && { return std::move(failure_); }
 
 private:

@@ -53,7 +53,7 @@ private:
     }
 };
 
-/// Refuses K components that there cannot be, or that do not fit in memory. @fails bad_input at `bases`.
+/// Refuses K components that there cannot be, that do not fit in memory, or mean too much work. @fails bad_input at `bases`.
 Status check_bases(const Coded& coded, std::uint64_t K);
 
 /// An error of a part of a payload, said at the place of that part.

@@ -1,8 +1,8 @@
 /// Packing bytes with zstd; encoder side.
 // SPDX-License-Identifier: MIT
+#include <new>
 #include <zstd.h>
 
-#include "meshreel/base/check.h"
 #include "meshreel/container/squeeze.h"
 
 namespace meshreel::container {
@@ -13,7 +13,7 @@ Squeezed squeeze(Bytes bytes, int level)
     squeezed.size = bytes.size();
     Bytes packed(ZSTD_compressBound(bytes.size()));
     const std::size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), level);
-    require(ZSTD_isError(size) == 0, "zstd has memory enough to compress");
+    if (ZSTD_isError(size) != 0) throw std::bad_alloc(); // there is room enough, so nothing else can be wrong
     if (size < bytes.size()) {
         packed.resize(size);
         packed.shrink_to_fit();

@@ -1,6 +1,9 @@
 /// Unpacking bytes; every size is known, allowed and plausible before anything is allocated.
 // SPDX-License-Identifier: MIT
 #include <zstd.h>
+#ifndef MESHREEL_DECODER_ALONE
+#include <zstd_errors.h>
+#endif
 
 #include "meshreel/base/text.h"
 #include "meshreel/container/squeeze.h"
@@ -50,8 +53,11 @@ Result<Bytes> unsqueeze(const Squeezed& squeezed, Budget& budget)
         return bad_input("not one whole zstd frame", "data");
     MESHREEL_CHECK(budget.take(squeezed.size, "size"));
     Bytes bytes(static_cast<std::size_t>(squeezed.size));
-    if (ZSTD_decompress(bytes.data(), bytes.size(), data.data(), data.size()) != bytes.size())
-        return bad_input("a damaged zstd frame", "data");
+    const std::size_t unpacked = ZSTD_decompress(bytes.data(), bytes.size(), data.data(), data.size());
+#ifndef MESHREEL_DECODER_ALONE
+    if (ZSTD_getErrorCode(unpacked) == ZSTD_error_memory_allocation) return Failure::out_of_memory();
+#endif
+    if (unpacked != bytes.size()) return bad_input("a damaged zstd frame", "data");
     return bytes;
 }
 

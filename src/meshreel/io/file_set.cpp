@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshreel/io/file_set.h"
 
-#include <cstdio>
-
 namespace meshreel::io {
 
 Status FileSet::add(const std::string& path, ByteView bytes)
@@ -12,7 +10,6 @@ Status FileSet::add(const std::string& path, ByteView bytes)
     MESHREEL_TRY(AtomicFile file, AtomicFile::create(path, overwrite_));
     MESHREEL_CHECK(file.write(bytes));
     MESHREEL_CHECK(file.finish());
-    paths_.push_back(path);
     files_.push_back(std::move(file));
     return Ok{};
 }
@@ -20,9 +17,9 @@ Status FileSet::add(const std::string& path, ByteView bytes)
 Status FileSet::commit()
 {
     for (std::size_t i = 0; i < files_.size(); ++i) {
-        Status status = files_[i].commit();
+        Status status = files_[i].commit_revertibly();
         if (status.ok()) continue;
-        for (std::size_t done = 0; done < i; ++done) std::remove(paths_[done].c_str());
+        for (std::size_t done = 0; done < i; ++done) files_[done].revert();
         return status;
     }
     return Ok{};

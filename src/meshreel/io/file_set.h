@@ -17,12 +17,11 @@ public:
 
     /// Writes one file, whole, under a temporary name. @fails io, usage: as AtomicFile; usage: the path was added before.
     Status add(const std::string& path, ByteView bytes);
-    /// Makes all files appear. @fails io: a name cannot be taken; the files of this set are gone then.
+    /// Makes all files appear. @fails io: a name cannot be taken; what was there before is there again.
     Status commit();
 
 private:
     bool overwrite_;
-    std::vector<std::string> paths_;
     std::unordered_set<std::string> taken_;
     std::vector<AtomicFile> files_;
 };

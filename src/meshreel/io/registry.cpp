@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "meshreel/base/memory.h"
 #include "meshreel/base/text.h"
 #include "meshreel/io/gltf.h"
 #include "meshreel/io/io.h"
@@ -75,12 +76,14 @@ Result<const Format*> format_of(const std::string& path)
 
 Result<Animation> load(const std::string& path, const LoadOptions& options)
 {
-    MESHREEL_TRY(const Format* format, format_of(path));
-    if (!format->load)
-        return Error{ErrorCode::unsupported, concat(format->name, " files are only written"), {}, path, {}};
-    MESHREEL_TRY(Animation animation, in_file(format->load(path, options), path));
-    MESHREEL_CHECK(in_file(validate(animation), path));
-    return animation;
+    return within_memory([&]() -> Result<Animation> {
+        MESHREEL_TRY(const Format* format, format_of(path));
+        if (!format->load)
+            return Error{ErrorCode::unsupported, concat(format->name, " files are only written"), {}, path, {}};
+        MESHREEL_TRY(Animation animation, in_file(format->load(path, options), path));
+        MESHREEL_CHECK(in_file(validate(animation), path));
+        return animation;
+    });
 }
 
 Result<std::unique_ptr<FrameSource>> open(const std::string& path, const LoadOptions& options)
@@ -91,24 +94,29 @@ Result<std::unique_ptr<FrameSource>> open(const std::string& path, const LoadOpt
 
 Result<std::unique_ptr<FrameSource>> open(const Format& format, const std::string& path, const LoadOptions& options)
 {
-    if (format.open != nullptr && path != "-") {
-        MESHREEL_TRY(std::unique_ptr<FrameSource> frames, in_file(format.open(path, options), path));
-        MESHREEL_CHECK(in_file(validate_still(frames->still()), path));
-        return frames;
-    }
-    if (format.load == nullptr)
-        return Error{ErrorCode::unsupported, concat(format.name, " files are only written"), {}, path, {}};
-    MESHREEL_TRY(Animation animation, in_file(format.load(path, options), path));
-    MESHREEL_CHECK(in_file(validate(animation), path));
-    return std::unique_ptr<FrameSource>(std::make_unique<OwnedFrames>(std::move(animation)));
+    return within_memory([&]() -> Result<std::unique_ptr<FrameSource>> {
+        if (format.open != nullptr && path != "-") {
+            MESHREEL_TRY(std::unique_ptr<FrameSource> frames, in_file(format.open(path, options), path));
+            MESHREEL_CHECK(in_file(validate_still(frames->still()), path));
+            return frames;
+        }
+        if (format.load == nullptr)
+            return Error{ErrorCode::unsupported, concat(format.name, " files are only written"), {}, path, {}};
+        MESHREEL_TRY(Animation animation, in_file(format.load(path, options), path));
+        MESHREEL_CHECK(in_file(validate(animation), path));
+        return std::unique_ptr<FrameSource>(std::make_unique<OwnedFrames>(std::move(animation)));
+    });
 }
 
 Status save(const Animation& animation, const std::string& path, const SaveOptions& options)
 {
-    MESHREEL_TRY(const Format* format, format_of(path));
-    if (!format->save) return Error{ErrorCode::unsupported, concat(format->name, " files are only read"), {}, path, {}};
-    MESHREEL_CHECK(in_file(validate(animation), path));
-    return in_file(format->save(animation, path, options), path);
+    return within_memory([&]() -> Status {
+        MESHREEL_TRY(const Format* format, format_of(path));
+        if (!format->save)
+            return Error{ErrorCode::unsupported, concat(format->name, " files are only read"), {}, path, {}};
+        MESHREEL_CHECK(in_file(validate(animation), path));
+        return in_file(format->save(animation, path, options), path);
+    });
 }
 
 } // namespace meshreel::io

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "meshreel/base/memory.h"
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/squeeze.h"
 
@@ -24,7 +25,7 @@ void set_mean(FrameTerms& frame, const double* mean)
 
 } // namespace
 
-Result<Player> Player::open(ByteView reel, const OpenOptions& options)
+Result<Player> Player::opened(ByteView reel, const OpenOptions& options)
 {
     MESHREEL_TRY(const container::StreamReader file, container::StreamReader::open(reel, options.limits));
     MESHREEL_TRY(const container::Header header, container::read_header(file));
@@ -44,6 +45,11 @@ Result<Player> Player::open(ByteView reel, const OpenOptions& options)
     MESHREEL_CHECK(player.open_segments(segments, *codec, topology.surface, options));
     player.seek_frame(0);
     return player;
+}
+
+Result<Player> Player::open(ByteView reel, const OpenOptions& options)
+{
+    return within_memory([&] { return opened(reel, options); });
 }
 
 void Player::order_vertices(std::span<const std::uint32_t> surface_of, std::uint32_t surface_vertices)

@@ -59,6 +59,7 @@ public:
     void pose_frames(std::size_t first, std::span<float> out) const;
 
 private:
+    static Result<Player> opened(ByteView reel, const OpenOptions& options);
     struct alignas(64) Line {
         float values[16];
     };
