@@ -10,6 +10,7 @@ import numpy
 from coding import MixedLevels, RangeDecoder, octave_column
 from learning import LeastSquares, bounded, parallelograms
 from pca import magnitude, power
+from lengths import Lengths
 from relaxation import Relaxation
 
 TINY = 5e-324
@@ -29,7 +30,8 @@ class Payload:
         self.taper = fields.varint("taper", 0, 256) / 256
         self.linear = fields.number("linear", low=0.0, high=1e6)
         self.squared_bend = fields.number("squared_bend", low=1e-6, high=1e6)
-        self.contexts = 3 if fields.varint("mixed", 0, 1) else 1
+        ways = fields.varint("ways", 0, 3)
+        self.contexts, self.lengths = 3 if ways & 1 else 1, ways & 2
         self.neighbours = fields.varint("neighbours", 1, 16)
         self.growth = fields.varint("growth", 1, 10**6)
         self.length_noise = fields.varint("length_noise", 0, 1 << 20)
@@ -297,7 +299,8 @@ class Order:
 class AllOthers(Coded):
     """The components from 3 on, of the coarsest levels of detail, as many as `keep` says."""
 
-    def __init__(self, payload, first, energies, keep):
+    def __init__(self, payload, first, basis, keep):
+        mean, B, energies = basis
         at = payload.at + len(payload.basis_bits) + len(payload.first_bits)
         self.payload, K, W = payload, payload.K, payload.W
         n = payload.neighbours
@@ -318,6 +321,7 @@ class AllOthers(Coded):
         self.C[:, :3] = first.C
         self.seen = [row + [0] * (K - 3) for row in first.seen]
         self.usual, self.own = [1.0] * K, [0.5] * W
+        self.lengths = Lengths(mean, B) if payload.lengths else None
         done, passed = 0, 0
         for level in self.order.levels:
             self.level(level, done / W)
@@ -339,11 +343,18 @@ class AllOthers(Coded):
             weights = self.weights(vertices, near, (old, k))
             for v, w in zip(vertices, weights):
                 neighbours = [u for _, u in near[v][:p.neighbours]]
-                rows = [self.C[u].tolist() for u in neighbours]
-                for c in range(k, last):
-                    guess = dot(w, [row[c] for row in rows])
+                for c, guess in zip(range(k, last), self.guesses(v, w, neighbours, (k, last))):
                     self.value(v, c, neighbours, (guess, step))
             old, k = k, last
+        for v in vertices if self.lengths else []:
+            self.lengths.know(v, self.C[v])
+
+    def guesses(self, v, w, neighbours, batch):
+        k, last = batch
+        rows = [self.C[u].tolist() for u in neighbours]
+        guessed = [dot(w, [row[c] for row in rows]) for c in range(k, self.payload.K if self.lengths else last)]
+        more = self.lengths and self.lengths.corrections(self.C[v, :k].tolist() + guessed, neighbours, k)
+        return [a + b for a, b in zip(guessed, more)] if more else guessed
 
     def weights(self, vertices, near, batch):
         (old, known), C = batch, self.C
@@ -399,7 +410,7 @@ def open_payload(fields, topology, frames, keep=None, relaxed=True):
     Y = Poses(payload).Y
     first = FirstComponents(payload, topology.surface)
     mean, B, energies = basis_of(Y, payload)
-    C = first.C if payload.K <= 3 else AllOthers(payload, first, energies, keep).C
+    C = first.C if payload.K <= 3 else AllOthers(payload, first, (mean, B, energies), keep).C
     if relaxed and payload.length_noise and keep is None and payload.K > 0 and frames > 1:
         deviation = payload.step * (payload.length_noise / 256)
         C = Relaxation(topology.surface.triangles, mean, B).relax(C, deviation * deviation)

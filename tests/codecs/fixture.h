@@ -37,6 +37,7 @@ inline std::vector<codecs::Settings> all_settings(double step)
             all.push_back({.step = step, .basis = static_cast<BasisCoding>(basis), .entropy = entropy});
     all.push_back({.step = step, .growth = 12, .mixed = false, .neighbours = 5}); // files that open fast
     all.push_back({.step = step, .relax = true});
+    all.push_back({.step = step, .lengths = true});
     return all;
 }
 

@@ -6,75 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "meshreel/base/random.h"
 #include "meshreel/codecs/codec.h"
 #include "meshreel/mesh/shapes.h"
 #include "tests/codecs/fixture.h"
+#include "tests/codecs/strip.h"
 
 using namespace meshreel;
 
 namespace {
-
-/// Trajectories [W x 3F] in a basis that is all of them can be: C holds the coordinates themselves.
-struct Posed {
-    codecs::Basis basis;
-    Matrix<double> C;
-
-    Posed(std::size_t W, std::size_t F) : basis{std::vector<double>(3 * F), Matrix<double>(3 * F, 3 * F)}, C(W, 3 * F)
-    {
-        for (std::size_t i = 0; i < 3 * F; ++i) basis.rows(i, i) = 1.0;
-    }
-    double distance(const Posed& other) const
-    {
-        double sum = 0;
-        for (std::size_t i = 0; i < C.values.size(); ++i) sum += std::pow(C.values[i] - other.C.values[i], 2);
-        return std::sqrt(sum);
-    }
-};
-
-constexpr std::uint32_t columns = 12, rows = 4;
-
-std::vector<Triangle> strip()
-{
-    std::vector<Triangle> triangles;
-    for (std::uint32_t i = 0; i + 1 < columns; ++i)
-        for (std::uint32_t j = 0; j + 1 < rows; ++j) {
-            const std::uint32_t v = i * rows + j;
-            triangles.push_back({v, v + rows, v + 1});
-            triangles.push_back({v + 1, v + rows, v + rows + 1});
-        }
-    return triangles;
-}
-
-/// A strip rolled up to ever smaller circles while the width of its last columns is scaled by stretch(time).
-Posed rolling(std::size_t F, const std::function<double(double)>& stretch)
-{
-    Posed posed(columns * rows, F);
-    for (std::size_t f = 0; f < F; ++f) {
-        const double time = static_cast<double>(f) / static_cast<double>(F), bend = 0.02 + 0.2 * time;
-        for (std::size_t v = 0; v < columns * rows; ++v) {
-            const double angle = bend * static_cast<double>(v / rows);
-            posed.C(v, f) = std::sin(angle) / bend;
-            posed.C(v, F + f) = (1.0 - std::cos(angle)) / bend;
-            posed.C(v, 2 * F + f) = static_cast<double>(v % rows) * (v / rows < 9 ? 1.0 : stretch(time));
-        }
-    }
-    return posed;
-}
-
-double unstretched(double)
-{
-    return 1.0;
-}
-
-Posed noisy(Posed posed, double size)
-{
-    Random random(7);
-    for (double& c : posed.C.values) c += size * (random.uniform() - 0.5);
-    return posed;
-}
 
 constexpr double usual_noise = 0.05 * 0.05 / 6; // of lengths between places noisy by 0.05: twice that of a coordinate
 

@@ -62,8 +62,8 @@ Animation smooth()
     return a;
 }
 
-/// The frames of a file coded again, in one segment, and relaxed.
-Bytes relaxed(const Animation& animation, const Bytes& file)
+/// The frames of a file coded again, in one segment, with settings that only a search chooses.
+Bytes chosen(const Animation& animation, const Bytes& file, const codecs::Settings& settings)
 {
     const container::StreamReader reader = *container::StreamReader::open(file);
     const auto topology = *codecs::read_topology(reader, *container::read_header(reader), nullptr);
@@ -72,8 +72,7 @@ Bytes relaxed(const Animation& animation, const Bytes& file)
         for (std::size_t i = 0; i < 3ul * animation.vertex_count; ++i)
             frames(f, 3ul * topology.surface_of[i / 3] + i % 3) = animation.frame(f)[i];
     const codecs::Sequence sequence{topology.surface, frames.view()};
-    const auto trial =
-        codecs::find("reel")->prepare(sequence, 512, {1})->encode({.step = 0.02, .relax = true, .threads = {1}});
+    const auto trial = codecs::find("reel")->prepare(sequence, 512, {1})->encode(settings);
     container::StreamWriter writer;
     for (const container::Chunk& chunk : reader.chunks()) {
         if (chunk.type != container::type::segm)
@@ -83,6 +82,16 @@ Bytes relaxed(const Animation& animation, const Bytes& file)
             return {};
     }
     return std::move(writer).finish();
+}
+
+Bytes relaxed(const Animation& animation, const Bytes& file)
+{
+    return chosen(animation, file, {.step = 0.02, .relax = true, .threads = {1}});
+}
+
+Bytes length_keeping(const Animation& animation, const Bytes& file)
+{
+    return chosen(animation, file, {.step = 0.02, .lengths = true, .relax = true, .threads = {1}});
 }
 
 /// Options of the codecs that the rows above leave at their defaults.
@@ -109,6 +118,8 @@ void add_options(std::vector<Golden>& rows)
     exact.segment = 6;
     rows.push_back({"lossless_v1_guess_wave", [] { return shape("wave", 100, 20); }, exact});
     rows.push_back({"reel_v1_relaxed_cloth", [] { return shape("cloth", 150, 20); }, with_step("reel"), {}, relaxed});
+    rows.push_back(
+        {"reel_v1_lengths_cloth", [] { return shape("cloth", 150, 20); }, with_step("reel"), {}, length_keeping});
     rows.push_back({"reel_v1_smooth", smooth, with_step("reel")});
     rows.push_back({"reel_v1_dressed", dressed, with_step("reel")});
     rows.push_back({"lossless_v1_dressed_free", dressed, with_step("lossless", Order::free)});

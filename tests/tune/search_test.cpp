@@ -141,3 +141,26 @@ TEST(Search, MendsWhatMissesTheLimitByALittle)
     EXPECT_LE(found->excess, 1.0);
     EXPECT_GE(found->excess, 0.97);
 }
+
+TEST(Search, KeepsLengthsOnlyWhereRelaxingPaysAndWhereThatSavesMore)
+{
+    struct Case {
+        double relaxed, kept; ///< what the size is multiplied by
+        bool relax, lengths;  ///< in what is found
+    };
+    for (const Case& c : {Case{0.9, 0.9, true, true}, {0.9, 0.99, true, false}, {0.99, 0.5, false, false}}) {
+        Model model;
+        tune::Problem problem = model.problem();
+        problem.attempt = [&](const codecs::Settings& settings) {
+            Result<tune::Attempt> attempt = model.attempt(settings);
+            attempt->cost *= (settings.relax ? c.relaxed : 1.0) * (settings.lengths ? c.kept : 1.0);
+            return attempt;
+        };
+        problem.knobs = {truncation};
+        problem.relax = true;
+        const auto best = tune::cheapest(problem, {.step = 0.02});
+        ASSERT_TRUE(best.ok());
+        EXPECT_EQ(best->settings.relax, c.relax);
+        EXPECT_EQ(best->settings.lengths, c.lengths);
+    }
+}

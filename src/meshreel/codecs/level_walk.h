@@ -14,6 +14,7 @@
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/contexts.h"
 #include "meshreel/codecs/interpolation.h"
+#include "meshreel/codecs/length_guess.h"
 #include "meshreel/coding/mixed_levels.h"
 #include "meshreel/coding/quantiser.h"
 
@@ -41,8 +42,9 @@ struct Taper {
 template <class Core, std::size_t contexts>
 class LevelWalk {
 public:
-    LevelWalk(Core& core, const Interpolation& interpolation, Taper taper)
-        : core_(core), interpolation_(interpolation), taper_(taper),
+    /// lengths: corrects what is interpolated; none: nothing does.
+    LevelWalk(Core& core, const Interpolation& interpolation, Taper taper, LengthGuess* lengths)
+        : core_(core), interpolation_(interpolation), taper_(taper), lengths_(lengths),
           levels_(some_of({near_columns * own_columns, rows * row_columns, seen_contexts}), judges)
     {
     }
@@ -70,6 +72,7 @@ public:
                 k = next;
             }
             if (ended(core_)) break;
+            if (lengths_) lengths_->know(level.near.vertices, C);
             if (end == ends[taken.size()]) taken.push_back(core_.position());
             begin = end;
         }
@@ -96,12 +99,15 @@ private:
     void code_batch(Level& level, std::size_t first, std::size_t last)
     {
         const std::vector<Interpolation::Weights> weights = interpolation_.weights(level.near, level.C, first);
+        const Matrix<double> corrections =
+            lengths_ ? lengths_->corrections(level.near.vertices, weights, level.C, {first, last}) : Matrix<double>();
         guess_.resize(last - first);
         nearby_.resize(last - first);
         for (std::size_t i = 0; i < weights.size() && !ended(core_); ++i) {
             const std::size_t v = level.near.vertices[i];
             if (i + 1 < weights.size()) fetch(weights[i + 1], first, level);
             weights[i].apply(level.C, first, guess_);
+            if (lengths_) add(corrections.row(i), guess_);
             look_around(weights[i], first, level.L);
             for (std::size_t k = first; k < last; ++k)
                 code_value(weights[i], {v, k, guess_[k - first], nearby_[k - first]}, level);
@@ -128,6 +134,11 @@ private:
         }
         if (near.count > 0)
             for (double& nearby : nearby_) nearby = nearby / share_sums[near.count];
+    }
+
+    static void add(std::span<const double> correction, std::span<double> guess)
+    {
+        for (std::size_t k = 0; k < guess.size(); ++k) guess[k] += correction[k];
     }
 
     void code_value(const Interpolation::Weights& near, const Place& place, const Level& level)
@@ -181,6 +192,7 @@ private:
     Core& core_;
     const Interpolation& interpolation_;
     Taper taper_;
+    LengthGuess* lengths_;
     coding::MixedLevels<contexts> levels_;
     std::vector<double> usual_;          ///< [K] how large the levels of a component have been of late
     std::vector<double> own_;            ///< [W] and those of a vertex

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include "meshreel/base/text.h"
 #include "meshreel/codecs/choice.h"
 #include "meshreel/codecs/components.h"
 #include "meshreel/codecs/entropy.h"
+#include "meshreel/codecs/length_guess.h"
 #include "meshreel/codecs/level_walk.h"
 #include "meshreel/codecs/pose_walk.h"
 #include "meshreel/codecs/relaxation.h"
@@ -33,6 +35,8 @@ struct LevelSize {
 constexpr std::uint32_t taper_one = 256;
 constexpr double noise_unit = 1.0 / 256; // of the step
 constexpr std::uint32_t most_noise = 1u << 20;
+constexpr std::uint32_t way_mixed = 1, way_lengths = 2;             // of `ways`
+constexpr std::uint64_t most_length_bytes = std::uint64_t{1} << 29; // that an encoder asks of its readers
 
 struct ReelPayload {
     std::uint32_t bases = 0;
@@ -40,7 +44,7 @@ struct ReelPayload {
     std::array<float, 3> origin{};
     std::uint32_t taper = 0;
     InterpolationLaw law;
-    std::uint32_t mixed = 1, length_noise = 0;
+    std::uint32_t ways = way_mixed, length_noise = 0;
     std::uint64_t basis_size = 0, first_size = 0;
     std::vector<LevelSize> levels;
     ByteView bits;
@@ -54,11 +58,13 @@ struct ReelPayload {
         return deviation * deviation;
     }
 
+    bool has(std::uint32_t way) const { return (ways & way) != 0; }
+
     /// body(how many contexts a level is coded under, as a constant)
     auto with_contexts(const auto& body) const
     {
-        return mixed != 0 ? body(std::integral_constant<std::size_t, 3>{})
-                          : body(std::integral_constant<std::size_t, 1>{});
+        return has(way_mixed) ? body(std::integral_constant<std::size_t, 3>{})
+                              : body(std::integral_constant<std::size_t, 1>{});
     }
 
     void fields(auto& io)
@@ -74,8 +80,9 @@ struct ReelPayload {
                   "2^-8: to which power of their share of vertices coarse levels are finer");
         io.f64("linear", law.linear, {0.0, 1e6}, "trust in motions known already against smoothness");
         io.f64("squared_bend", law.squared_bend, {1e-6, 1e6}, "c^2 of the multiquadric");
-        io.varint("mixed", mixed, {0, 1},
-                  "1: levels are coded under three contexts at once, 0: under the first of them");
+        io.varint(
+            "ways", ways, {0, way_mixed | way_lengths},
+            "sum of 1: levels are coded under three contexts at once, not only the first; 2: guesses keep lengths");
         io.varint("neighbours", law.neighbours, {1, Interpolation::most}, "vertices that one is interpolated from");
         io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
         io.varint("length_noise", length_noise, {0, most_noise},
@@ -169,6 +176,36 @@ std::vector<std::size_t> rising(std::vector<std::size_t> counts)
     return counts;
 }
 
+/// [W x K] and the magnitudes of their levels; the first of them are known.
+struct Coefficients {
+    MatrixView<double> C;
+    MatrixView<std::uint8_t> L;
+    std::size_t first;
+};
+
+/// How the components after the first ones are coded.
+struct LevelsWay {
+    const ReelPayload& head;
+    const Interpolation& interpolation;
+    const Basis& basis;
+    Threads threads;
+    double bit_price = 0.0;
+};
+
+/// Both directions: see LevelWalk::code.
+template <class Core>
+std::vector<std::uint64_t> code_levels(Core& core, const LevelsWay& way, const Coefficients& all,
+                                       std::span<const std::size_t> ends)
+{
+    std::optional<LengthGuess> lengths;
+    if (way.head.has(way_lengths)) lengths.emplace(way.basis, all.C.rows, way.threads);
+    const Taper taper{{way.head.step, way.bit_price}, way.head.taper_exponent()};
+    return way.head.with_contexts([&](auto contexts) {
+        return LevelWalk<Core, contexts>(core, way.interpolation, taper, lengths ? &*lengths : nullptr)
+            .code(all.first, all.C, all.L, ends);
+    });
+}
+
 class ReelEncoder : public ComponentEncoder {
 public:
     using ComponentEncoder::ComponentEncoder;
@@ -177,7 +214,9 @@ public:
     {
         CodedBasis coded = code_basis(settings);
         return trial_of(std::move(coded.basis), settings, [&](const Basis& basis, MatrixView<double> C) {
-            code_coefficients(coded, settings, C);
+            if (settings.lengths && LengthGuess::bytes(C.rows, basis.mean.size() / 3, C.cols) <= most_length_bytes)
+                coded.head.ways |= way_lengths;
+            code_coefficients(coded, settings, basis, C);
             if (settings.relax) relax(coded.head, basis, C, settings.threads);
             coded.head.bits = coded.bits;
             return coded.head;
@@ -204,7 +243,7 @@ private:
         coded.head.taper = static_cast<std::uint32_t>(std::lround(settings.taper * taper_one));
         coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth,
                           settings.neighbours};
-        coded.head.mixed = settings.mixed ? 1 : 0;
+        coded.head.ways = settings.mixed ? way_mixed : 0;
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);
@@ -235,7 +274,7 @@ private:
     }
 
     /// Adds the bits of the coefficients, and their sizes.
-    void code_coefficients(CodedBasis& coded, const Settings& settings, MatrixView<double> C) const
+    void code_coefficients(CodedBasis& coded, const Settings& settings, const Basis& basis, MatrixView<double> C) const
     {
         const std::size_t first = std::min(C.cols, first_components);
         Matrix<std::uint8_t> L(C.rows, C.cols);
@@ -250,11 +289,8 @@ private:
         Bytes level_bits;
         if (C.cols > first)
             level_bits = range_written([&](coding::RangeEncoder& core) {
-                const Taper taper{{coded.head.step, settings.bit_price}, coded.head.taper_exponent()};
-                ends = coded.head.with_contexts([&](auto contexts) {
-                    return LevelWalk<coding::RangeEncoder, contexts>(core, interpolation, taper)
-                        .code(first, C, L.view(), counts);
-                });
+                const LevelsWay way{coded.head, interpolation, basis, settings.threads, settings.bit_price};
+                ends = code_levels(core, way, {C, L.view(), first}, counts);
             });
         std::uint64_t begin = 0;
         for (const std::uint64_t end : ends) {
@@ -271,12 +307,6 @@ std::unique_ptr<Encoder> prepare_reel(const Sequence& sequence, std::size_t max_
 {
     return std::make_unique<ReelEncoder>(sequence, max_bases, threads);
 }
-
-/// [W x K] and the magnitudes of their levels.
-struct Coefficients {
-    MatrixView<double> C;
-    MatrixView<std::uint8_t> L;
-};
 
 /// A payload's parts, and how to read one.
 struct ReelReader {
@@ -340,25 +370,29 @@ std::vector<std::size_t> counts_wanted(std::vector<std::size_t> counts, const Co
     return counts;
 }
 
-/// The components after the first ones.
-Status read_levels(const ReelReader& reader, const Coded& coded, const Interpolation& interpolation,
-                   const Coefficients& result)
+/// @fails limit: what `field` asks for does not fit in memory beside the trajectories.
+Status check_room(const ReelReader& reader, const Coded& coded, std::uint64_t needed, const char* field)
 {
-    std::vector<std::size_t> counts = rising(detail_counts(interpolation.order()));
+    const std::uint64_t there = 8 * std::uint64_t{reader.K} * (coded.surface.vertex_count + 3 * coded.frame_count);
+    if (needed + there <= coded.limits.max_memory) return Ok{};
+    return bad_input("what it asks for does not fit in the memory limit", concat(coded.payload.name, ".", field),
+                     at_byte(coded.payload.offset));
+}
+
+/// The components after the first ones.
+Status read_levels(const ReelReader& reader, const Coded& coded, const LevelsWay& way, const Coefficients& result)
+{
+    const CoarseToFine& order = way.interpolation.order();
+    std::vector<std::size_t> counts = rising(detail_counts(order));
     MESHREEL_CHECK(reader.check_levels(counts));
-    counts = counts_wanted(std::move(counts), interpolation.order(), coded);
+    counts = counts_wanted(std::move(counts), order, coded);
     const std::uint64_t needed = reader.bits.level_ends[counts.size() - 1];
     if (reader.bits.levels.size() < needed)
         return at_part(bad_input("ends too early"), reader.source, reader.bits.levels, "level_bits");
     const ByteView bits = reader.bits.levels.first(static_cast<std::size_t>(needed));
     std::vector<std::uint64_t> ends;
-    MESHREEL_CHECK(reader.read(bits, "level_bits", [&](coding::RangeDecoder& core) {
-        const Taper taper{{reader.head.step}, reader.head.taper_exponent()};
-        ends = reader.head.with_contexts([&](auto contexts) {
-            return LevelWalk<coding::RangeDecoder, contexts>(core, interpolation, taper)
-                .code(reader.first, result.C, result.L, counts);
-        });
-    }));
+    MESHREEL_CHECK(reader.read(bits, "level_bits",
+                               [&](coding::RangeDecoder& core) { ends = code_levels(core, way, result, counts); }));
     if (std::ranges::equal(ends, std::span(reader.bits.level_ends).first(ends.size()))) return Ok{};
     return bad_input("a level of detail ends at another byte than said", reader.source.name + ".levels",
                      at_byte(reader.source.offset));
@@ -383,7 +417,10 @@ Result<Trajectories> read_trajectories(const ReelReader& reader, const Coded& co
     if (reader.K == reader.first) return result;
     const Interpolation interpolation(first_of(result.C.view()).view(), relevance_of(weighed.energies), reader.head.law,
                                       coded.threads);
-    MESHREEL_CHECK(read_levels(reader, coded, interpolation, {result.C.view(), L.view()}));
+    const LevelsWay way{reader.head, interpolation, result.basis, coded.threads};
+    if (reader.head.has(way_lengths))
+        MESHREEL_CHECK(check_room(reader, coded, LengthGuess::bytes(W, coded.frame_count, reader.K), "ways"));
+    MESHREEL_CHECK(read_levels(reader, coded, way, {result.C.view(), L.view(), reader.first}));
     return result;
 }
 
@@ -392,11 +429,8 @@ Status relax_decoded(const ReelReader& reader, const Coded& coded, Trajectories&
 {
     const bool whole = !coded.wanted || coded.wanted->size() == decoded.C.rows; // a coarser level lacks the edges
     if (reader.head.length_noise == 0 || !whole) return Ok{};
-    const std::uint64_t there = 8 * std::uint64_t{decoded.C.values.size() + decoded.basis.rows.values.size()};
     const std::uint64_t needed = Relaxation::bytes(decoded.C.rows, coded.surface.triangles.size(), decoded.C.cols);
-    if (needed + there > coded.limits.max_memory)
-        return bad_input("relaxing does not fit in the memory limit", coded.payload.name + ".length_noise",
-                         at_byte(coded.payload.offset));
+    MESHREEL_CHECK(check_room(reader, coded, needed, "length_noise"));
     Relaxation(coded.surface.triangles, decoded.basis, coded.threads)
         .relax(decoded.C.view(), reader.head.relaxed_noise());
     return Ok{};

@@ -57,6 +57,7 @@ struct Settings {
                                              ///< more; the more, the faster, >= 1 (reel)
     bool mixed = true;                       ///< several contexts for each level; one is faster (reel)
     std::uint32_t neighbours = 16;           ///< that a vertex is interpolated from, 1 .. 16; fewer are faster (reel)
+    bool lengths = false;                    ///< guesses keep distances to neighbours that hardly vary (reel)
     bool relax = false;                      ///< decoded frames are drawn towards edge lengths that hardly vary (reel)
     double basis_ratio = 1.0;                ///< beta: Q_m = beta D / sqrt(W), see basis_law; > 0
     BasisCoding basis = BasisCoding::cobra;

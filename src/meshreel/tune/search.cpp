@@ -128,7 +128,7 @@ public:
         Line line(problem_.rises);
         if (!problem_.knobs.empty()) {
             MESHREEL_TRY(Attempt near, approach(settings, line));
-            MESHREEL_CHECK(try_relaxing(near));
+            MESHREEL_CHECK(try_lengths(near));
             for (int round = 0; round < problem_.rounds; ++round)
                 for (const Knob& knob : problem_.knobs) MESHREEL_CHECK(descend(near, knob));
             line.restart();
@@ -175,16 +175,27 @@ private:
     /// log of what an attempt would cost if it kept the limit exactly.
     double price(const Attempt& attempt) const { return std::log(attempt.cost) + exchange_ * std::log(attempt.excess); }
 
+    /// Relaxing, and where that pays, guesses that keep lengths too.
+    Status try_lengths(Attempt& best)
+    {
+        if (!problem_.relax) return Ok{};
+        for (bool Settings::*way : {&Settings::relax, &Settings::lengths}) {
+            MESHREEL_TRY(const bool pays, try_way(best, way));
+            if (!pays) break;
+        }
+        return Ok{};
+    }
+
     /// Decoders have work with it: only where it saves what is worth that.
-    Status try_relaxing(Attempt& best)
+    Result<bool> try_way(Attempt& best, bool Settings::*way)
     {
         constexpr double worth_work = 0.02;
-        if (!problem_.relax) return Ok{};
         Settings settings = best.settings;
-        settings.relax = true;
+        settings.*way = true;
         MESHREEL_TRY(Attempt attempt, attempted(settings));
-        if (price(attempt) < price(best) - worth_work) best = std::move(attempt);
-        return Ok{};
+        const bool pays = price(attempt) < price(best) - worth_work;
+        if (pays) best = std::move(attempt);
+        return pays;
     }
 
     /// Moves along a knob for as long as it pays.

@@ -36,7 +36,7 @@ struct Problem {
     bool rises = true;            ///< the excess rises with the step, as errors do; sizes fall
     std::vector<Knob> knobs = {}; ///< varied one after another, each for as long as it pays
     int rounds = 1;               ///< how often all of them
-    bool relax = false;           ///< whether to try Settings::relax once, before the knobs
+    bool relax = false;           ///< whether to try Settings::relax, then Settings::lengths, before the knobs
     Progress progress = {};
     std::function<Result<Attempt>(Attempt)> mend = {}; ///< the same settings again, where a few vertices miss the limit
 };
