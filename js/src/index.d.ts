@@ -17,6 +17,8 @@ export declare class ReelClip {
   readonly timeline: { readonly times: Float64Array; readonly period: number; readonly start: number; readonly duration: number };
   /** Positions of the rows, [3 rows], at seconds from the first frame, as the GPU shows them. */
   rowsAt(time: number, out?: Float32Array): Float32Array;
+  /** Where a row is in every stored frame, [3 F]. */
+  pathOf(row: number): Float32Array;
   materials(): MeshStandardMaterial | MeshStandardMaterial[];
   dispose(): void;
 }

@@ -58,6 +58,21 @@ export class ReelClip {
     return mixedRows({ coefficients, basis, frames: table }, frames, weights, out);
   }
 
+  /// Where a row is in every stored frame, [3 F].
+  pathOf(row) {
+    const [C, basis, table] = Object.values(this.textures).map((each) => each.image.data), F = this.timeline.times.length;
+    const path = new Float32Array(3 * F);
+    for (let f = 0; f < F; ++f) {
+      const count = table[8 * f + 1], at = 4 * (table[8 * f] + table[8 * f + 3] * 2 ** 20 + count * row);
+      for (let c = 0; c < 3; ++c) {
+        let sum = table[8 * f + 4 + c];
+        for (let k = 0; k < 4 * count; ++k) sum += C[at + k] * basis[4 * (table[8 * f + 2] + 3 * (k >> 2) + c) + (k & 3)];
+        path[3 * f + c] = sum;
+      }
+    }
+    return path;
+  }
+
   /// Standard materials, one for each that the file names.
   materials() {
     const of = (name) => Object.assign(new MeshStandardMaterial({ side: DoubleSide, vertexColors: 'color' in this.geometry.attributes }), { name });
