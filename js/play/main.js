@@ -69,6 +69,8 @@ class Page {
     for (const { clip } of [this.original, this.shown]) clip?.dispose();
     Object.assign(this, { original: {}, shown: {}, heat: null, pieces: [], player: null, framed: false });
     for (const id of ['message', 'legend', 'curve', 'tip', 'panes']) $(id).hidden = true;
+    this.picked = null;
+    this.strip.clear();
     this.setPanes(['decoded']);
   }
   original = {};
@@ -133,7 +135,8 @@ class Page {
 
   say(error) {
     const shown = this.shown.clip ? ` ${this.shown.clip.head.frameCount} of ${this.shown.head.frameCount} frames are shown.` : '';
-    $('message').textContent = `${this.item ? `${this.item.name}: ` : ''}${error.message}.${shown}`.replace('..', '.');
+    const what = error.code === 3 ? 'damaged, or not all there; ' : '';
+    $('message').textContent = `${this.item.name}: ${what}${error.message}.${shown}`.replace('..', '.');
     $('message').classList.toggle('aside', shown !== '');
     $('message').hidden = false;
     this.error = error;
@@ -151,6 +154,7 @@ class Page {
     const chosen = panes.length > 1 ? 'all' : panes[0];
     for (const button of $('panes').children) button.setAttribute('aria-pressed', String(button.dataset.panes === chosen));
     this.label();
+    $('stage').classList.toggle('several', panes.length > 1);
     $('legend').hidden = !this.heat || !panes.includes('error');
     if (this.framed) this.stage.home();
   }

@@ -126,7 +126,7 @@ export class Stage {
     camera.aspect = width / height;
     camera.near = radius / 100;
     camera.far = 40 * radius;
-    camera.position.copy(center).addScaledVector(home, (0.92 * radius) / Math.sin(half) / Math.min(1, camera.aspect));
+    camera.position.copy(center).addScaledVector(home, (0.86 * radius) / Math.sin(half) / Math.min(1, camera.aspect));
     camera.lookAt(center);
     camera.updateProjectionMatrix();
   }

@@ -20,12 +20,18 @@ export class Strip {
 
   /// A new animation: its times, its length.
   begin(timeline) {
+    this.clear();
     this.timeline = timeline;
     this.duration = timeline.duration || 1;
     this.input.max = String(timeline.duration);
-    this.pictures = 0;
-    const context = fitted(this.strip);
-    context.clearRect(0, 0, this.strip.clientWidth, this.strip.clientHeight);
+  }
+
+  /// Nothing is there to be seen.
+  clear() {
+    Object.assign(this, { timeline: null, pictures: 0, known: null });
+    fitted(this.strip).clearRect(0, 0, this.strip.clientWidth, this.strip.clientHeight);
+    this.now.textContent = '';
+    this.head.style.left = '0';
   }
 
   /// Segments loaded so far, of F frames: a line below, with a gap where two meet.

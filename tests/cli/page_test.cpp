@@ -27,7 +27,7 @@ TEST_F(Page, OfExportHasTheFileInItAndAllElseAsItWas)
     const std::string page = read("out.html");
     EXPECT_THAT(page, testing::StartsWith("<p>before</p><script type=\"application/json\" id=\"manifest\">{"));
     EXPECT_THAT(page, testing::EndsWith("</script><p>after</p>"));
-    EXPECT_THAT(page, HasSubstr("<script type=\"text/plain\" id=\"item-0\">iVJFRU")) << "base 64 of the signature";
+    EXPECT_THAT(page, HasSubstr("<script type=\"text/plain\" id=\"item-0\">jVJFRUwN")) << "base 64 of the signature";
 }
 
 TEST_F(Page, OfExportIsMadeOfAnyAnimation)
