@@ -88,10 +88,11 @@ def sorted_ideas(rows):
     return sorted({name for _, name in found}, key=lambda name: -mean(of(found, name)))
 
 
-def worth_nothing(rows):
-    """Names of ideas without which no sequence's files are larger by NOTHING percent, at equal KG or STED."""
-    both = [worth(rows, measure) for measure in ("kg", "sted")]
-    return [name for name in sorted_ideas(rows) if all(value < NOTHING for found in both for value in of(found, name))]
+def worth_little(rows):
+    """[(name, percent, the sequence that needs it most)] of ideas worth less than NOTHING percent at equal KG in the mean over sequences."""
+    found = worth(rows, "kg")
+    most = lambda name: max((value, sequence) for (sequence, other), value in found.items() if other == name)
+    return [(name, *most(name)) for name in sorted_ideas(rows) if mean(of(found, name)) < NOTHING]
 
 
 def main():

@@ -199,11 +199,20 @@ def idea_sequences(what):
 
 
 def idle_ideas():
-    """The ideas that no sequence needs."""
-    rows, known = numbers(releases.read("ablation")), ideas.read()
-    names = ideas.worth_nothing(rows)
-    said = f"without which no sequence's files are larger by {ideas.NOTHING} % or more, neither at equal KG error nor at equal STED"
-    return [f"Ideas {said}: {'; '.join(f'**{name}** ({known[name].idea})' for name in names) or 'none'}."]
+    """The ideas that no sequence needs, and those that few do."""
+    little = ideas.worth_little(numbers(releases.read("ablation")))
+    nothing = [f"**{name}** ({most:+.1f} %, {sequence})" for name, most, sequence in little if most < ideas.NOTHING]
+    others = [f"**{name}** ({most:+.1f} %, {sequence})" for name, most, sequence in little if most >= ideas.NOTHING]
+    return [f"Less than {ideas.NOTHING} % at equal KG error on every sequence; where they are worth most: {', '.join(nothing) or 'none'}.", "",
+            f"Less than that in the mean over sequences, but more on some: {', '.join(others) or 'none'}."]
+
+
+def not_measured(name):
+    """What a plan names and its results lack; nothing where they lack nothing."""
+    rows, curves = releases.read(name), plan.curves_of(plan.read(os.path.join(ROOT, "lab/plans", name + ".toml")), name)
+    lacking = lambda wanted, key: [word for word in wanted if word not in {row[key] for row in rows}]
+    found = lacking((coding.name for coding in curves.codings), "coding") + lacking(curves.sequences, "sequence")
+    return [f"In the plan, but not measured yet: {', '.join(found)}."] if found else []
 
 
 def made_by(name):
@@ -242,7 +251,7 @@ TABLES = {
         "ideas, STED": lambda: idea_sequences(lambda rows: ideas.worth(rows, "sted")),
         "ideas, encoding": lambda: idea_sequences(lambda rows: ideas.times(rows, "encode_s")),
         "ideas, decoding": lambda: idea_sequences(lambda rows: ideas.times(rows, "decode_s")),
-        "ideas, made by": lambda: made_by("ablation"),
+        "ideas, made by": lambda: [*made_by("ablation"), "", *not_measured("ablation")],
     },
     "docs/peers.md": {
         "peers at KG 0.5 %": lambda: rate_table("peers", "kg", 0.5),

@@ -49,10 +49,10 @@ class Worth(unittest.TestCase):
     def test_times_are_of_files_of_the_same_setting(self):
         self.assertAlmostEqual(ideas.times([*WHOLE, file("x", "kg 0.5", 0.5, 1.0, 3.0)], "encode_s")["cow", "x"], 200)
 
-    def test_what_helps_one_sequence_is_worth_something(self):
-        rows = [{**row, "sted": row["kg"], "coding": coding, "sequence": sequence, "bpfv": row["bpfv"] * factor} for row in WHOLE
-                for coding, sequence, factor in (("reel", "a", 1), ("reel", "b", 1), ("x", "a", 1.001), ("x", "b", 0.9), ("y", "a", 1.01), ("y", "b", 0.9))]
-        self.assertEqual(ideas.worth_nothing(rows), ["x"])
+    def test_what_is_worth_little_is_told_with_where_it_is_worth_most(self):
+        rows = [{**row, "coding": coding, "sequence": sequence, "bpfv": row["bpfv"] * factor} for row in WHOLE for coding, sequence, factor in
+                (("reel", "a", 1), ("reel", "b", 1), ("x", "a", 1.004), ("x", "b", 0.9), ("y", "a", 1.1), ("y", "b", 0.9), ("z", "a", 1.1), ("z", "b", 1))]
+        self.assertEqual([(name, round(most, 6), sequence) for name, most, sequence in ideas.worth_little(rows)], [("y", 10, "a"), ("x", 0.4, "a")])
 
     def test_every_result_is_of_an_idea_that_there_is(self):
         rows = tables.numbers(releases.read("ablation"))

@@ -81,6 +81,12 @@ TEST_F(Reel, WhatEncodeSaysItReachedIsWhatCompareMeasures)
     EXPECT_DOUBLE_EQ(json["bpfv"], 8.0 * static_cast<double>(read("a.reel").size()) / (120.0 * 12.0));
 }
 
+TEST_F(Reel, TheProcessorsSecondsAreToldBesideTheWalls)
+{
+    EXPECT_GT(good("encode motion.pc2 --mesh mesh.obj a.reel --kg 0.1 --json").json()["encode_processor_seconds"], 0.0);
+    EXPECT_GE(good("decode a.reel a.pc2 --json").json()["decode_processor_seconds"], 0.0);
+}
+
 TEST_F(Reel, BasesAndStepCanBeSetByHand)
 {
     const auto json = good("encode motion.pc2 --mesh mesh.obj a.reel --bases 1 --step 0.001 --json").json();
