@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz foreign bench bench-ablation bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm figures format docs clean
+.PHONY: build demo check test fuzz foreign bench bench-ablation bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm page figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -66,6 +66,12 @@ bench-rate: build   ## rates at given errors beside what they must be; the READM
 wasm:           ## the decoder for JavaScript into js/dist (tools/install.sh --with-wasm)
 	wasm/build.sh
 	node js/build.mjs
+
+page:           ## the page of play and export into js/dist, with the decoder (tools/install.sh --with-wasm)
+	tools/install.sh --with-wasm
+	wasm/build.sh
+	node js/build.mjs
+	node js/play/build.mjs
 
 figures:        ## the thesis' tables and figures, measured: docs/thesis-figures.md; DATA=FOLDER where the sequences are elsewhere
 	tools/install.sh --with-figures

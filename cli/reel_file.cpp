@@ -72,9 +72,7 @@ Result<Animation> load_reel(const Source& source, Console& console)
 
 Result<std::unique_ptr<FrameSource>> open_reel(const Source& source, Console& console)
 {
-    const bool as_stored = source.frames.first == 0 && source.frames.last == io::FrameRange{}.last &&
-                           source.frames.step == 1 && source.fps == 0.0 && source.level == 0;
-    if (!as_stored || !is_regular_file(source.path)) {
+    if (!source.as_stored() || !is_regular_file(source.path)) {
         MESHREEL_TRY(Animation animation, load(source, console));
         return std::unique_ptr<FrameSource>(std::make_unique<io::OwnedFrames>(std::move(animation)));
     }

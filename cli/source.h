@@ -36,6 +36,11 @@ struct Source {
     /// "reel", "obj", ...; empty where nothing says it.
     std::string format_name() const;
     bool is_reel() const { return format_name() == "reel"; }
+    /// Whether every frame is taken as it is stored.
+    bool as_stored() const
+    {
+        return frames.first == 0 && frames.last == io::FrameRange{}.last && frames.step == 1 && fps == 0.0 && level == 0;
+    }
 };
 
 /// Declares an option that names a format: obj, glb, ..., reel.

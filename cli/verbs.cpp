@@ -17,6 +17,8 @@ std::unique_ptr<Verb> make_generate();
 std::unique_ptr<Verb> make_picture();
 std::unique_ptr<Verb> make_distort();
 std::unique_ptr<Verb> make_study();
+std::unique_ptr<Verb> make_play();
+std::unique_ptr<Verb> make_export();
 
 std::span<const VerbRow> verbs()
 {
@@ -32,6 +34,8 @@ std::span<const VerbRow> verbs()
         VerbRow{"picture", "draw an animation, its decoded self and the error side by side", make_picture},
         VerbRow{"distort", "make an animation worse in one stated way", make_distort},
         VerbRow{"study", "correlate measures with what people saw", make_study},
+        VerbRow{"play", "show animations in the browser, beside their original if it is named", make_play},
+        VerbRow{"export", "make one page that plays an animation from disk", make_export},
     };
     return rows;
 }

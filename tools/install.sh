@@ -9,7 +9,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 packages=(
     g++ cmake ninja-build pkg-config python3
-    libeigen3-dev libcli11-dev libfmt-dev nlohmann-json3-dev libxxhash-dev libzstd-dev libpng-dev
+    libeigen3-dev libcli11-dev libfmt-dev nlohmann-json3-dev libcpp-httplib-dev libxxhash-dev libzstd-dev libpng-dev
 )
 check_packages=(
     git libgtest-dev libgmock-dev ccache clang clang-format libclang-rt-14-dev universal-ctags python3-numpy

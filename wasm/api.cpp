@@ -190,9 +190,9 @@ MESHREEL_EXPORT(allocate) void* reel_allocate(std::size_t size)
     return std::malloc(size);
 }
 
-MESHREEL_EXPORT(open) Handle* reel_open(std::uint32_t coarse_level, double max_memory)
+MESHREEL_EXPORT(open) Handle* reel_open(std::uint32_t coarse_level, int level_alone, double max_memory)
 {
-    wasm::IncomingOptions options{coarse_level, {}};
+    wasm::IncomingOptions options{coarse_level, level_alone != 0, {}};
     options.limits.max_memory = static_cast<std::uint64_t>(max_memory);
     return new Handle(options);
 }

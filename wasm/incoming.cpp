@@ -1,4 +1,4 @@
-/// From chunk to chunk, each as soon as it is whole; of the first segment a level as soon as that is.
+/// From chunk to chunk, each as soon as it is whole; of the first segment, or of each, a level as soon as that is.
 // SPDX-License-Identifier: MIT
 #include "incoming.h"
 
@@ -141,14 +141,20 @@ Result<Incoming::Event> Incoming::take_segment(const Chunk& chunk)
     piece_ = {};
     MESHREEL_TRY(const Segment segment, container::read_segment(chunk, options_.limits));
     MESHREEL_CHECK(check_segment(segment, chunk.offset));
-    MESHREEL_TRY(piece_.opened, codecs::open(*codec_, coded(segment)));
+    codecs::Coded wanted = coded(segment);
+    if (alone_) { // its vertices may stand anywhere in a later segment
+        wanted.wanted = alone_->wanted;
+        piece_.level = alone_;
+        piece_.appearance = appearance_of(*alone_, still_.appearance);
+    }
+    MESHREEL_TRY(piece_.opened, codecs::open(*codec_, wanted));
     const auto* trajectories = std::get_if<codecs::Trajectories>(&piece_.opened);
     if (trajectories != nullptr && !codecs::float_holds(*trajectories))
         return bad_input("has positions that float32 cannot hold", "SEGM", at_byte(segment.payload_offset));
     piece_.first_frame = segment.first_frame;
     piece_.frame_count = segment.frame_count;
     next_frame_ += segment.frame_count;
-    return Event::segment;
+    return alone_ ? Event::level : Event::segment;
 }
 
 /// None: it is not there yet, or there is none.
@@ -173,6 +179,11 @@ Result<Incoming::Event> Incoming::take_level(const container::Index::Entry& entr
     first.wanted = kept.wanted;
     MESHREEL_TRY(codecs::Opened opened, codecs::open(*codec_, first));
     Appearance appearance = appearance_of(kept, still_.appearance);
+    if (options_.level_alone) {
+        alone_ = kept;
+        at_ += container::chunk_size(entry.size);
+        next_frame_ += segment.frame_count;
+    }
     piece_ = {0, segment.frame_count, std::move(opened), std::move(kept), std::move(appearance)};
     return Event::level;
 }

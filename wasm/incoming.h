@@ -22,6 +22,8 @@ struct IncomingOptions {
     /// Level of detail to be shown before the first segment is there; of a coarser file its coarsest, of one without levels
     /// none. 0: none.
     std::uint32_t coarse_level = 0;
+    /// Of every segment the level, and nothing else, where the file has levels.
+    bool level_alone = false;
     DecodeLimits limits = {};
 };
 
@@ -38,7 +40,7 @@ public:
     enum class Event : std::uint8_t {
         none,    ///< more bytes are needed
         head,    ///< still() and topology() are there; again, if a file has some of it behind its segments
-        level,   ///< piece() is the first segment, coarse
+        level,   ///< piece() is the next segment, coarse
         segment, ///< piece() is the next segment
         done     ///< all bytes are there and verified
     };
@@ -83,6 +85,7 @@ private:
     std::uint64_t at_ = container::Preamble::size;
     std::uint32_t next_frame_ = 0;
     bool level_shown_ = false;
+    std::optional<Level> alone_; ///< shown of every segment
     container::Header header_;
     Animation still_;
     connectivity::Topology topology_;

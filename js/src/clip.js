@@ -6,22 +6,44 @@ import { Timeline } from './timeline.js';
 
 /// Numbers in groups of four, as texels of a texture 2048 wide.
 export const tableWidth = 2048;
+const tallest = 16384; // texture that WebGL knows of
 class Table {
   constructor(texels) {
     this.height = Math.max(1, Math.ceil(texels / tableWidth));
+    if (this.height > tallest) throw new ReelError('too many frames of too many vertices for one texture', { code: 5 });
     this.values = new Float32Array(4 * tableWidth * this.height);
   }
 }
 
 const fours = (K) => Math.ceil(K / 4);
 
+/// A piece that has frames only, as pieces of one frame each, whose three components are x, y and z.
+function posable(piece, rowOf, rows) {
+  if (!piece.exact) return [piece];
+  const n = piece.frames.length / piece.frameCount;
+  return Array.from({ length: piece.frameCount }, (_, f) => {
+    const coefficients = new Float32Array(3 * rows), frame = piece.frames.subarray(f * n, (f + 1) * n);
+    for (let v = 0; v < rowOf.length; ++v) coefficients.set(frame.subarray(3 * v, 3 * v + 3), 3 * rowOf[v]);
+    return { firstFrame: piece.firstFrame + f, frameCount: 1, K: 3, mean: new Float64Array(3),
+      basis: Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1), coefficients };
+  });
+}
+
+/// The head of what is there so far: the frames of pieces, which begin the file; of a level, its surface.
+function headOf(head, pieces) {
+  const { firstFrame, frameCount, surface, K, coefficients } = pieces.at(-1), F = firstFrame + frameCount;
+  const whole = F === head.frameCount, rows = surface ? coefficients.length / K : head.codedVertexCount;
+  const count = surface ? rows : head.vertexCount;
+  return { ...head, frameCount: F, times: head.times.subarray(0, F), loop: head.loop && whole, codedVertexCount: rows, vertexCount: count,
+    surface: surface ? { ...surface, rowOf: Uint32Array.from({ length: rows }, (_, r) => r) } : head.surface };
+}
+
 export class ReelData {
-  /// head and pieces of decodeReel(): all segments, in order.
-  constructor(head, pieces) {
-    if (pieces.some((piece) => piece.exact))
-      throw new ReelError(`the codec ${head.codec} is exact: its frames can be decoded, not posed`, { code: 5, field: 'HEAD.codec' });
+  /// head and pieces of decodeReel(): segments, or segments of one level, from the first, in order.
+  constructor(file, given) {
+    const head = headOf(file, given);
     this.head = head;
-    this.pieces = pieces;
+    this.pieces = given.flatMap((piece) => posable(piece, head.surface.rowOf, head.codedVertexCount));
     this.timeline = new Timeline(head.times, head.loop, head.fps);
     this.rows = head.codedVertexCount;
     this.surface = shownSurface(head.surface, head.vertexCount);
@@ -99,12 +121,12 @@ export class ReelData {
     return this.rowOf;
   }
 
-  /// Of each frame: where its coefficients begin, K / 4, where its basis begins; mean and time. Its basis: x, y, z of four
-  /// components, then of the next four.
+  /// Of each frame: where its coefficients begin (below 2^20, and how many of those: float32 holds no more than 24 bits), K / 4,
+  /// where its basis begins; mean and time. Its basis: x, y, z of four components, then of the next four.
   #fillFrames({ K, mean, basis, firstFrame, frameCount: n }, texel, basisTexel) {
     for (let i = 0; i < n; ++i) {
       const at = basisTexel + 3 * fours(K) * i, f = firstFrame + i;
-      this.frames.values.set([texel, fours(K), at, 0, mean[i], mean[n + i], mean[2 * n + i], this.head.times[f] - this.timeline.start], 8 * f);
+      this.frames.values.set([texel % 2 ** 20, fours(K), at, Math.floor(texel / 2 ** 20), mean[i], mean[n + i], mean[2 * n + i], this.head.times[f] - this.timeline.start], 8 * f);
       for (let k = 0; k < K; ++k)
         for (let c = 0; c < 3; ++c) this.basis.values[4 * (at + 3 * (k >> 2) + c) + (k & 3)] = basis[(k * 3 + c) * n + i];
     }
@@ -132,5 +154,37 @@ export class ReelData {
       }
     }
     return { min, max };
+  }
+}
+
+/// Positions of the rows for four frames and their weights, [3 rows]: what the shader does (src/shader.js), on the CPU. The
+/// basis is mixed before the coefficients are met. tables: { coefficients, basis, frames }, arrays of numbers.
+export function mixedRows({ coefficients: C, basis, frames }, frameOf, weightOf, out) {
+  const mixes = new Map(); // one for each segment in it, by where its coefficients begin
+  for (let n = 0; n < 4; ++n) {
+    if (weightOf[n] === 0) continue;
+    const at = 8 * frameOf[n], begin = frames[at] + frames[at + 3] * 2 ** 20, count = frames[at + 1];
+    if (!mixes.has(begin)) mixes.set(begin, { count, mean: new Float64Array(3), mixed: new Float64Array(12 * count) });
+    const { mean, mixed } = mixes.get(begin), first = 4 * frames[at + 2];
+    for (let i = 0; i < 12 * count; ++i) mixed[i] += weightOf[n] * basis[first + i];
+    for (let c = 0; c < 3; ++c) mean[c] += weightOf[n] * frames[at + 4 + c];
+  }
+  out.fill(0);
+  for (const [begin, mix] of mixes) addRows(C, 4 * begin, mix, out);
+  return out;
+}
+
+function addRows(C, begin, { count, mean, mixed }, out) {
+  for (let r = 0; r < out.length / 3; ++r) {
+    let [x, y, z] = mean;
+    for (let k = 0, c = begin + 4 * count * r; k < count; ++k)
+      for (let j = 12 * k; j < 12 * k + 4; ++j, ++c) {
+        x += C[c] * mixed[j];
+        y += C[c] * mixed[j + 4];
+        z += C[c] * mixed[j + 8];
+      }
+    out[3 * r] += x;
+    out[3 * r + 1] += y;
+    out[3 * r + 2] += z;
   }
 }

@@ -74,6 +74,8 @@ export type ReelEvent =
 
 export interface DecoderOptions {
   coarseLevel?: number;
+  /** Of every segment that level, and nothing else. */
+  levelAlone?: boolean;
   maxMemory?: number;
   base?: { vertexCount: number; triangles: Uint32Array } | null;
 }

@@ -36,8 +36,9 @@ export class Decoder {
   #handle;
 
   /// module: a compiled WebAssembly.Module. coarseLevel: the level of detail to show before the first segment is whole, 0:
-  /// none. maxMemory: bytes that a file may ask for. base: { vertexCount, triangles } of a file made against a base mesh.
-  static async create(module, { coarseLevel = 0, maxMemory = 2 ** 30, base = null } = {}) {
+  /// none; levelAlone: of every segment that level and nothing else. maxMemory: bytes that a file may ask for.
+  /// base: { vertexCount, triangles } of a file made against a base mesh.
+  static async create(module, { coarseLevel = 0, levelAlone = false, maxMemory = 2 ** 30, base = null } = {}) {
     const decoder = new Decoder();
     const text = (view) => { // of a std::string_view
       const { buffer } = decoder.#wasm.memory;
@@ -59,7 +60,7 @@ export class Decoder {
     });
     decoder.#wasm = instance.exports;
     decoder.#wasm._initialize();
-    decoder.#handle = decoder.#wasm.open(coarseLevel, Math.min(maxMemory, 2 ** 31));
+    decoder.#handle = decoder.#wasm.open(coarseLevel, levelAlone ? 1 : 0, Math.min(maxMemory, 2 ** 31));
     if (base) {
       const at = decoder.#call('base', base.vertexCount, base.triangles.length / 3);
       new Uint32Array(decoder.#wasm.memory.buffer, at, base.triangles.length).set(base.triangles);

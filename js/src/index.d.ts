@@ -15,6 +15,10 @@ export declare class ReelClip {
   readonly geometry: BufferGeometry;
   readonly gpuBytes: number;
   readonly timeline: { readonly times: Float64Array; readonly period: number; readonly start: number; readonly duration: number };
+  /** Positions of the rows, [3 rows], at seconds from the first frame, as the GPU shows them. */
+  rowsAt(time: number, out?: Float32Array): Float32Array;
+  /** Where a row is in every stored frame, [3 F]. */
+  pathOf(row: number): Float32Array;
   materials(): MeshStandardMaterial | MeshStandardMaterial[];
   dispose(): void;
 }
@@ -50,6 +54,8 @@ export declare class ReelMesh extends Mesh<BufferGeometry, Material | Material[]
   readonly player: ReelPlayer;
   wear(material: Material | Material[]): this;
   worn<M extends Material>(material: M): M;
+  /** Shows another clip from now on, of a surface with as many materials. */
+  change(clip: ReelClip): this;
   dispose(): void;
 }
 
@@ -72,6 +78,8 @@ export declare class ReelLoader extends Loader<ReelMesh> {
   preload(): Promise<WebAssembly.Module>;
   load(url: string, onLoad?: (mesh: ReelMesh) => void, onProgress?: (progress: any) => void, onError?: (error: unknown) => void): void;
   loadClip(source: ReelSource, options?: DecodeOptions & { onEvent?: (event: ReelEvent) => void }): Promise<ReelClip>;
+  /** Clips of a file on its way, each of more than the one before: a coarse level, the segments so far, all. */
+  loadClips(source: ReelSource, options?: DecodeOptions & { onEvent?: (event: ReelEvent) => void }): AsyncGenerator<ReelClip, void, void>;
   parse(buffer: ArrayBuffer, onLoad?: (mesh: ReelMesh) => void, onError?: (error: unknown) => void): Promise<ReelMesh>;
   dispose(): this;
 }

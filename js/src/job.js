@@ -27,13 +27,13 @@ export async function* chunksOf(source, signal) {
   }
 }
 
-/// The events of a file, as Decoder.take() gives them. options.frames: pieces have their exact frames too; options.single:
-/// coefficients as float32.
+/// The events of a file, as Decoder.take() gives them. options.frames: pieces have their exact frames too, as those without
+/// coefficients always do; options.single: coefficients as float32.
 export async function* eventsOf(chunks, module, options = {}) {
   const decoder = await Decoder.create(module, options);
   const finished = (event) => {
     if (event.piece && options.single) event.piece.coefficients = Float32Array.from(event.piece.coefficients);
-    if (event.piece && options.frames) event.piece.frames = decoder.frames();
+    if (event.piece && (options.frames || event.piece.exact)) event.piece.frames = decoder.frames();
     return event;
   };
   try {

@@ -29,6 +29,24 @@ export class ReelLoader extends Loader {
     return new ReelClip(head, pieces);
   }
 
+  /// Clips of a file on its way, each of more than the one before: of level `coarseLevel` of the first segment (2; 0: none), of
+  /// the segments so far, of all. mesh.change() puts them on; whoever took one disposes of it. @throws ReelError
+  async *loadClips(source, { onEvent, coarseLevel = 2, ...options } = {}) {
+    let head = null, told = 0;
+    const pieces = [];
+    for await (const event of decodeReel(source, { all: this.all, single: true, coarseLevel, ...this.decodeOptions, ...options })) {
+      onEvent?.(event);
+      if (event.type === 'head') head = event.head;
+      if (event.type === 'level') yield new ReelClip(head, [event.piece]);
+      if (event.type !== 'segment') continue;
+      pieces.push(event.piece);
+      const whole = event.piece.firstFrame + event.piece.frameCount === head.frameCount;
+      if (!whole && pieces.length < 2 * told) continue; // tables are made anew each time
+      told = pieces.length;
+      yield new ReelClip(head, pieces);
+    }
+  }
+
   load(url, onLoad, onProgress, onError) {
     const address = this.manager.resolveURL((this.path ?? '') + url);
     this.manager.itemStart(address);

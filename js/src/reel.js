@@ -6,7 +6,7 @@ import {
   EventDispatcher, LoopOnce, LoopPingPong, LoopRepeat,
 } from 'three';
 
-import { ReelData, tableWidth } from './clip.js';
+import { ReelData, mixedRows, tableWidth } from './clip.js';
 import { reelVertexShader } from './shader.js';
 
 const names = { normal: null, tangent: 'tangent', uv0: 'uv', uv1: 'uv1', uv2: 'uv2', uv3: 'uv3', color0: 'color' };
@@ -18,11 +18,12 @@ function texture({ values, height }) {
   return made;
 }
 
-/// One decoded file on the GPU: as many meshes and crowds as wanted share it. dispose() frees it.
+/// One decoded file on the GPU: as many meshes and crowds as wanted share it. dispose() frees it. pieces: the segments, or those
+/// of one level, perhaps not yet all of them; the head is then that of what is there.
 export class ReelClip {
   constructor(head, pieces) {
     const data = new ReelData(head, pieces);
-    this.head = head;
+    this.head = data.head;
     this.timeline = data.timeline;
     this.textures = { reelCoefficients: texture(data.coefficients), reelBasis: texture(data.basis), reelFrames: texture(data.frames) };
     this.rows = data.rows;
@@ -47,6 +48,29 @@ export class ReelClip {
     geometry.boundingBox = new Box3(new Vector3(...min), new Vector3(...max)).expandByScalar(0.02 * new Vector3(...max).distanceTo(new Vector3(...min)));
     geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
     return geometry;
+  }
+
+  /// Positions of the rows, [3 rows], at seconds from the first frame, as the GPU shows them.
+  rowsAt(time, out = new Float32Array(3 * this.rows)) {
+    const frames = new Int32Array(4), weights = new Float64Array(4);
+    this.timeline.mix(this.timeline.start + time, frames, weights);
+    const [coefficients, basis, table] = Object.values(this.textures).map((each) => each.image.data);
+    return mixedRows({ coefficients, basis, frames: table }, frames, weights, out);
+  }
+
+  /// Where a row is in every stored frame, [3 F].
+  pathOf(row) {
+    const [C, basis, table] = Object.values(this.textures).map((each) => each.image.data), F = this.timeline.times.length;
+    const path = new Float32Array(3 * F);
+    for (let f = 0; f < F; ++f) {
+      const count = table[8 * f + 1], at = 4 * (table[8 * f] + table[8 * f + 3] * 2 ** 20 + count * row);
+      for (let c = 0; c < 3; ++c) {
+        let sum = table[8 * f + 4 + c];
+        for (let k = 0; k < 4 * count; ++k) sum += C[at + k] * basis[4 * (table[8 * f + 2] + 3 * (k >> 2) + c) + (k & 3)];
+        path[3 * f + c] = sum;
+      }
+    }
+    return path;
   }
 
   /// Standard materials, one for each that the file names.
@@ -144,6 +168,16 @@ export class ReelPlayer extends EventDispatcher {
   }
 }
 
+/// The vertices shown at a time, as a geometry that rays can meet.
+function posed(clip, time) {
+  const rows = clip.rowsAt(time), { index, groups, attributes: { reelRow, uv } } = clip.geometry, geometry = new BufferGeometry();
+  const positions = Float32Array.from({ length: 3 * reelRow.count }, (_, i) => rows[3 * reelRow.getX((i / 3) | 0) + (i % 3)]);
+  geometry.setIndex(index).setAttribute('position', new BufferAttribute(positions, 3));
+  if (uv) geometry.setAttribute('uv', uv);
+  geometry.groups = groups;
+  return geometry;
+}
+
 /// Gives an object its wardrobe, its shadows' materials, and its player.
 function furnish(mesh, clip, material, crowd) {
   const wardrobe = new Wardrobe(clip, crowd);
@@ -173,12 +207,35 @@ export class ReelMesh extends Mesh {
     furnish(this, clip, material, false);
     const frames = new Int32Array(4), weights = new Float64Array(4);
     this.player = new ReelPlayer(clip.timeline, (time) => {
-      clip.timeline.mix(clip.timeline.start + time, frames, weights);
+      const { timeline } = this.clip;
+      timeline.mix(timeline.start + time, frames, weights);
       this.uniforms.reelFrame.value.fromArray(frames);
       this.uniforms.reelWeight.value.fromArray(weights);
     });
     this.player.seek(0);
   }
+
+  /// Shows another clip from now on, of a surface with as many materials: more segments of the same file, or another level.
+  change(clip) {
+    this.clip = clip;
+    this.geometry = clip.geometry;
+    this.uniforms.reelRows.value = clip.rows;
+    for (const [name, value] of Object.entries(clip.textures)) this.uniforms[name].value = value;
+    this.player.duration = clip.timeline.duration;
+    this.player.seek(this.player.time);
+    return this;
+  }
+
+  /// Rays meet what is shown.
+  raycast(raycaster, found) {
+    const { time } = this.player;
+    if (this.#posed?.time !== time || this.#posed.clip !== this.clip) this.#posed = { time, clip: this.clip, geometry: posed(this.clip, time) };
+    const shown = new Mesh(this.#posed.geometry, this.material), hits = [];
+    shown.matrixWorld = this.matrixWorld;
+    shown.raycast(raycaster, hits);
+    for (const hit of hits) found.push({ ...hit, object: this });
+  }
+  #posed = null;
 
   dispose() {
     undress(this);

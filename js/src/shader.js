@@ -75,7 +75,7 @@ vec3 reelSum( ReelMix now, int layer ) {
     vec4 head = reelTexel( reelFrames, 2 * now.frame[ n ] );
     int fours = int( head.y ), basis = int( head.z );
     int row = layer == 0 ? int( reelRow.x ) : reelRows + 2 * int( reelRow.y ) + layer - 1;
-    int at = int( head.x ) + row * fours;
+    int at = int( head.x ) + ( int( head.w ) << 20 ) + row * fours;
     vec3 part = layer == 0 ? reelTexel( reelFrames, 2 * now.frame[ n ] + 1 ).xyz : vec3( 0.0 );
     for ( int k = 0; k < fours; ++ k ) {
       vec4 c = reelTexel( reelCoefficients, at + k );

@@ -101,6 +101,18 @@ for (const name of names.filter((each) => meaningOf(each).levels.length > 0)) {
   });
 }
 
+test('every segment of a file can be had of one level, and nothing else', async () => {
+  for (const name of names.filter((each) => meaningOf(each).levels.length > 0)) {
+    const meaning = meaningOf(name), options = { base: await baseOf(meaning), coarseLevel: 1, frames: true };
+    const decoder = await Decoder.create(modules.reel, { ...options, levelAlone: true }), found = [];
+    decoder.push(bytesOf(name));
+    for (const event of decoder.take(true)) found.push(event.type === 'level' ? [...decoder.frames()] : event.type);
+    const positions = Float32Array.from(found.filter(Array.isArray).flat());
+    assert.deepEqual(found.filter((each) => !Array.isArray(each)), ['head', 'done']);
+    assert.equal(decoder.hash(positions).toString(16).padStart(16, '0'), meaning.levels[0].positions);
+  }
+});
+
 test('a file that comes in small pieces gives head, level, segments in order, and the same numbers', async () => {
   for (const name of ['reel_v1_range', 'coddyac_v1_cobra_huffman', 'reel_v1_dressed']) {
     const meaning = meaningOf(name);

@@ -34,6 +34,10 @@ export async function serve() {
 /// Why there is no browser, or ''.
 export const missing = existsSync('/usr/bin/chromium') ? '' : 'Chromium is not installed (tools/install.sh --with-wasm)';
 
+/// The command, where it is built: for what it shows in a browser.
+export const command = [process.env.MESHREEL, ...['build-check', 'build', 'build-dev'].map((folder) => `${root}${folder}/meshreel`)]
+  .find((path) => path && existsSync(path));
+
 export async function browse() {
   const browser = await chromium.launch({
     executablePath: '/usr/bin/chromium',

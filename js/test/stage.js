@@ -4,6 +4,7 @@ import * as THREE from 'three';
 
 import { ReelLoader } from '../src/index.js';
 import { decodeReel } from '../src/decode.js';
+import { readBack as readFrom } from '../src/readback.js';
 import { areaNormals } from '../src/surface.js';
 
 export { THREE, ReelLoader, decodeReel };
@@ -12,36 +13,8 @@ export * from '../src/index.js';
 export const renderer = new THREE.WebGLRenderer({ canvas: document.querySelector('canvas') });
 renderer.debug.checkShaderErrors = true;
 
-const vertexShader = /* glsl */ `
-varying vec4 shown;
-uniform int width, what;
-#include <common>
-void main() {
-  #include <beginnormal_vertex>
-  #include <begin_vertex>
-  shown = vec4( what == 0 ? transformed : objectNormal, 1.0 );
-  gl_Position = vec4( ( vec2( gl_VertexID % width, gl_VertexID / width ) + 0.5 ) / float( width ) * 2.0 - 1.0, 0.0, 1.0 );
-  gl_PointSize = 1.0;
-}`;
-const fragmentShader = 'varying vec4 shown; void main() { gl_FragColor = shown; }';
-
-/// [3 x vertices shown]: positions (0) or normals (1), out of the very chunks that every material gets.
-export function readBack(mesh, what) {
-  const count = mesh.geometry.attributes.position.count, width = Math.ceil(Math.sqrt(count));
-  const material = mesh.worn(new THREE.ShaderMaterial({ vertexShader, fragmentShader, uniforms: { width: { value: width }, what: { value: what } } }));
-  const geometry = mesh.geometry.clone().setIndex(null);
-  geometry.clearGroups();
-  const points = new THREE.Points(geometry, material), scene = new THREE.Scene().add(points);
-  points.frustumCulled = false;
-  const target = new THREE.WebGLRenderTarget(width, width, { type: THREE.FloatType, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
-  renderer.setRenderTarget(target);
-  renderer.render(scene, new THREE.Camera());
-  const pixels = new Float32Array(4 * width * width);
-  renderer.readRenderTargetPixels(target, 0, 0, width, width, pixels);
-  renderer.setRenderTarget(null);
-  for (const each of [target, geometry, material]) each.dispose();
-  return Float32Array.from({ length: 3 * count }, (_, i) => pixels[4 * ((i / 3) | 0) + (i % 3)]);
-}
+/// [3 x vertices shown]: positions (0) or normals (1).
+export const readBack = (mesh, what) => readFrom(renderer, mesh, what);
 
 /// All frames of a file by the CPU decoder, as decodeReel gives them, and its head.
 export async function decodedFrames(address) {

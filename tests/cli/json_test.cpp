@@ -91,6 +91,13 @@ TEST_F(JsonKeys, OfDistortAreDocumented)
     EXPECT_EQ(keys_of(good("distort a.pc2 --mesh a.obj d.pc2 smooth --amount 2 --json").json()), documented("distort"));
 }
 
+TEST_F(JsonKeys, OfExportAreDocumented)
+{
+    write("page.html", R"(<script type="application/json" id="manifest">null</script>)");
+    const auto json = good("export --html out.html a.pc2 --mesh a.obj --page page.html --json").json();
+    EXPECT_EQ(keys_of(json), documented("export"));
+}
+
 TEST_F(JsonKeys, OfStudyAreDocumented)
 {
     write("scores.csv", "MOS,kg\n1,2\n2,4\n3,3\n");
