@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test fuzz foreign bench bench-ablation bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm page figures format docs clean
+.PHONY: build demo check test tsan fuzz foreign bench bench-ablation bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm page figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -16,8 +16,14 @@ test:           ## the fast tests of a development build
 	cmake --build build-dev
 	ctest --test-dir build-dev --output-on-failure -LE slow -j2
 
-fuzz:           ## every fuzz target for a minute
-	tools/fuzz.sh 60
+fuzz:           ## every fuzz target for a minute, or FUZZ_SECONDS=...; then both decoders of what was found
+	tools/fuzz.sh $(or $(FUZZ_SECONDS),60)
+	reference/differential.py build-fuzz/golden_files build-fuzz/corpus/fuzz_reel
+
+tsan:           ## the tests whose names speak of threads, under the thread sanitizer
+	cmake --preset tsan
+	cmake --build build-tsan -j$(or $(JOBS),2) --target test_threads test_codecs test_properties test_metrics test_mesh test_linalg test_distort test_player
+	ctest --test-dir build-tsan --output-on-failure --no-tests=error -R 'Thread'
 
 foreign:        ## the golden files under other compilers, flags and machines (qemu-user)
 	tools/foreign/run.sh

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/reel_mutator.h"
 #include "meshreel/player/player.h"
 
 using namespace meshreel;

@@ -1,5 +1,6 @@
 /// Feeds any bytes to the front door's decoder, whole, in parts, coarse and at another rate, and to its inspectors.
 // SPDX-License-Identifier: MIT
+#include "fuzz/reel_mutator.h"
 #include "meshreel/meshreel.h"
 
 using namespace meshreel;

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """differential.py PROGRAM [COUNT [SEED]]: both decoders of COUNT damaged golden files, behind their checksums.
+differential.py PROGRAM FOLDER [COUNT]: of COUNT files of a folder: what the fuzzer has found.
 
 PROGRAM is the library's golden_files (tools/foreign): a line a file, its meaning or that it is refused. The decoders
 must agree on which files they refuse, and to the bit on what the others mean.
@@ -75,29 +76,41 @@ def second(data):
         return f"refused: {error}"
 
 
-def main(program, count=200, seed=1):
-    dice, end = random.Random(seed), time.monotonic() + 300
+def compare(program, files, names):
+    """How many files are read differently. names: what to call them."""
+    end, tried, refused, different = time.monotonic() + 300, 0, 0, 0
+    said = subprocess.run([program, *files], check=True, capture_output=True, text=True, errors="replace").stdout
+    for path, name, line in zip(files, names, said.splitlines(), strict=True):
+        if time.monotonic() > end:
+            break
+        found, expected = second(path.read_bytes()), line if line.startswith("refused") else json.loads(line)
+        both = isinstance(found, str) and isinstance(expected, str)
+        tried, refused = tried + 1, refused + both
+        if not both and found != expected:
+            different += 1
+            print(f"{name}, {path.name}:\n  {str(expected)[:300]}\n  {str(found)[:300]}")
+    print(f"{tried} damaged files, {refused} refused by both decoders, {different} read differently")
+    return different
+
+
+def of_damaged(program, count=200, seed=1):
+    dice = random.Random(seed)
     sources = [path for path in sorted(GOLDEN.glob("*.reel")) if path.stat().st_size < LARGEST]
-    tried = refused = different = 0
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / f"{i}.reel" for i in range(count)]
         names = [dice.choice(sources) for _ in files]
         for path, source in zip(files, names):
             path.write_bytes(damaged(source.read_bytes(), dice))
-        said = subprocess.run([program, *files], check=True, capture_output=True, text=True, errors="replace").stdout
-        lines = said.splitlines()
-        for path, source, line in zip(files, names, lines, strict=True):
-            if time.monotonic() > end:
-                break
-            found, expected = second(path.read_bytes()), line if line.startswith("refused") else json.loads(line)
-            both = isinstance(found, str) and isinstance(expected, str)
-            tried, refused = tried + 1, refused + both
-            if not both and found != expected:
-                different += 1
-                print(f"{source.stem}, {path.name}:\n  {str(expected)[:300]}\n  {str(found)[:300]}")
-    print(f"{tried} damaged files, {refused} refused by both decoders, {different} read differently")
-    return different > 0
+        return compare(program, files, [name.stem for name in names])
+
+
+def of_folder(program, folder, count=1000):
+    files = [path for path in sorted(Path(folder).iterdir()) if path.stat().st_size < LARGEST]
+    files = random.Random(1).sample(files, min(count, len(files)))
+    return compare(program, files, [folder] * len(files))
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], *map(int, sys.argv[2:])))
+    PROGRAM, WORDS = sys.argv[1], sys.argv[2:]
+    IN_FOLDER = WORDS and not WORDS[0].isdecimal()
+    sys.exit((of_folder(PROGRAM, WORDS[0], *map(int, WORDS[1:])) if IN_FOLDER else of_damaged(PROGRAM, *map(int, WORDS))) > 0)

@@ -6,6 +6,7 @@
 
 #define MESHREEL_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
 
+#ifndef MESHREEL_HOST_RAISES // of the fuzz target, whose host is no browser
 /// Throws a ReelError; js/decoder.js gives the instance up.
 extern "C" __attribute__((import_module("host"), import_name("raise"), noreturn)) void
 host_raise(int code, double byte, const std::string_view* message, const std::string_view* field);
@@ -23,6 +24,7 @@ void raise(const Error& error)
 }
 
 } // namespace meshreel
+#endif
 
 namespace {
 

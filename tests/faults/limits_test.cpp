@@ -94,7 +94,7 @@ TEST(SmallFile, ThatIsValidIsLongerThanAHundredBytes)
 
 TEST(SmallFile, ThatBecomesMuchIsWarnedOf)
 {
-    for (const std::size_t frames : {1u, 10u, 1000u, 20'000u}) {
+    for (const std::size_t frames : {1u, 10u, 1000u, 3000u}) {
         const Animation a = still(100, frames);
         const Bytes file = file_of(a);
         const Info what = *info(file);
