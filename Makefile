@@ -1,5 +1,5 @@
 # The commands to remember.
-.PHONY: build demo check test tsan fuzz foreign bench bench-ablation bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm page figures format docs clean
+.PHONY: build demo check test tsan fuzz foreign bench bench-ablation bench-effort bench-ledger bench-plan bench-rate bench-scale bench-search bench-surfaces wasm page picture bench-browser figures format docs clean
 
 build:          ## the command: build/meshreel
 	cmake --preset release
@@ -78,6 +78,13 @@ page:           ## the page of play and export into js/dist, with the decoder (t
 	wasm/build.sh
 	node js/build.mjs
 	node js/play/build.mjs
+
+picture: build page ## docs/play.png, the first picture of the README
+	node js/play/picture.mjs
+
+bench-browser: build page ## frame time, memory and time to the first frame in Chromium: docs/browser-speed.md; DATA=FOLDER of dance
+	tools/install.sh --with-peers
+	node bench/browser.mjs $(DATA)
 
 figures:        ## the thesis' tables and figures, measured: docs/thesis-figures.md; DATA=FOLDER where the sequences are elsewhere
 	tools/install.sh --with-figures

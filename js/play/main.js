@@ -121,14 +121,14 @@ class Page {
   legend(unit) {
     const context = $('ramp').getContext('2d'), { top, largest } = this.heat;
     for (let i = 0; i < 256; ++i) {
-      context.fillStyle = `rgb(${colourOf(1 - i / 255)})`;
-      context.fillRect(0, i, 1, 1);
+      context.fillStyle = `rgb(${colourOf(i / 255)})`;
+      context.fillRect(i, 0, 1, 1);
     }
     $('unit').textContent = `error, ${unit}`;
     const beyond = largest.some((d) => d > top);
-    $('ticks').replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((share) => {
+    $('ticks').replaceChildren(...[0, 0.5, 1].map((share) => {
       const tick = Object.assign(document.createElement('span'), { textContent: `${share === 1 && beyond ? '≥ ' : ''}${+(share * top * lengthText(1, this.shown.head).scale).toPrecision(3)}` });
-      tick.style.bottom = `${100 * share}%`;
+      tick.style.left = `${100 * share}%`;
       return tick;
     }));
   }

@@ -157,6 +157,23 @@ export class ReelData {
   }
 }
 
+/// The basis mixed of four frames by their weights, and before it the mean, into out: four numbers of the mean, then of every four
+/// components x, y and z. Returns where their coefficients begin; -1: they are of more than one segment, or do not fit.
+export function mixedBasis({ basis, frames }, frameOf, weightOf, out) {
+  const first = 8 * frameOf[weightOf.findIndex((weight) => weight !== 0)], begin = frames[first] + frames[first + 3] * 2 ** 20;
+  const size = 12 * frames[first + 1];
+  if (out.length < 4 + size) return -1;
+  out.fill(0);
+  for (let n = 0; n < 4; ++n) {
+    const at = 8 * frameOf[n], weight = weightOf[n];
+    if (weight === 0) continue;
+    if (frames[at] + frames[at + 3] * 2 ** 20 !== begin) return -1;
+    for (let c = 0; c < 3; ++c) out[c] += weight * frames[at + 4 + c];
+    for (let i = 0, from = 4 * frames[at + 2]; i < size; ++i) out[4 + i] += weight * basis[from + i];
+  }
+  return begin;
+}
+
 /// Positions of the rows for four frames and their weights, [3 rows]: what the shader does (src/shader.js), on the CPU. The
 /// basis is mixed before the coefficients are met. tables: { coefficients, basis, frames }, arrays of numbers.
 export function mixedRows({ coefficients: C, basis, frames }, frameOf, weightOf, out) {

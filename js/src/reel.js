@@ -3,16 +3,16 @@
 import {
   Box3, BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, InstancedBufferAttribute, InstancedMesh, Mesh,
   MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial, NearestFilter, RGBADepthPacking, RGBAFormat, Sphere, Vector3, Vector4,
-  EventDispatcher, LoopOnce, LoopPingPong, LoopRepeat,
+  EventDispatcher, LoopOnce, LoopPingPong, LoopRepeat, Vector2,
 } from 'three';
 
-import { ReelData, mixedRows, tableWidth } from './clip.js';
+import { ReelData, mixedBasis, mixedRows, tableWidth } from './clip.js';
 import { reelVertexShader } from './shader.js';
 
 const names = { normal: null, tangent: 'tangent', uv0: 'uv', uv1: 'uv1', uv2: 'uv2', uv3: 'uv3', color0: 'color' };
 
-function texture({ values, height }) {
-  const made = new DataTexture(values, tableWidth, height, RGBAFormat, FloatType);
+function texture({ values, height, width = tableWidth }) {
+  const made = new DataTexture(values, width, height, RGBAFormat, FloatType);
   made.minFilter = made.magFilter = NearestFilter;
   made.needsUpdate = true;
   return made;
@@ -27,6 +27,7 @@ export class ReelClip {
     this.timeline = data.timeline;
     this.textures = { reelCoefficients: texture(data.coefficients), reelBasis: texture(data.basis), reelFrames: texture(data.frames) };
     this.rows = data.rows;
+    this.blendWidth = 1 + 3 * Math.min(680, Math.ceil(Math.max(...data.pieces.map((piece) => piece.K)) / 4));
     this.geometry = ReelClip.#geometry(data);
     this.gpuBytes = Object.values(this.textures).reduce((sum, each) => sum + each.image.data.byteLength, 0);
   }
@@ -54,13 +55,16 @@ export class ReelClip {
   rowsAt(time, out = new Float32Array(3 * this.rows)) {
     const frames = new Int32Array(4), weights = new Float64Array(4);
     this.timeline.mix(this.timeline.start + time, frames, weights);
-    const [coefficients, basis, table] = Object.values(this.textures).map((each) => each.image.data);
-    return mixedRows({ coefficients, basis, frames: table }, frames, weights, out);
+    return mixedRows(this.tables, frames, weights, out);
+  }
+  get tables() {
+    const [coefficients, basis, frames] = Object.values(this.textures).map((each) => each.image.data);
+    return { coefficients, basis, frames };
   }
 
   /// Where a row is in every stored frame, [3 F].
   pathOf(row) {
-    const [C, basis, table] = Object.values(this.textures).map((each) => each.image.data), F = this.timeline.times.length;
+    const { coefficients: C, basis, frames: table } = this.tables, F = this.timeline.times.length;
     const path = new Float32Array(3 * F);
     for (let f = 0; f < F; ++f) {
       const count = table[8 * f + 1], at = 4 * (table[8 * f] + table[8 * f + 3] * 2 ** 20 + count * row);
@@ -96,7 +100,8 @@ class Wardrobe {
       Object.assign(this.uniforms, { reelTime: { value: 0 }, reelPeriod: { value: timeline.period },
         reelDuration: { value: timeline.duration }, reelFrameCount: { value: timeline.times.length } });
     } else {
-      Object.assign(this.uniforms, { reelFrame: { value: new Vector4() }, reelWeight: { value: new Vector4(1, 0, 0, 0) } });
+      Object.assign(this.uniforms, { reelFrame: { value: new Vector4() }, reelWeight: { value: new Vector4(1, 0, 0, 0) },
+        reelBlend: { value: null }, reelBlended: { value: new Vector2() } });
     }
   }
 
@@ -211,8 +216,23 @@ export class ReelMesh extends Mesh {
       timeline.mix(timeline.start + time, frames, weights);
       this.uniforms.reelFrame.value.fromArray(frames);
       this.uniforms.reelWeight.value.fromArray(weights);
+      this.#blend(frames, weights);
     });
+    this.#makeBlend();
     this.player.seek(0);
+  }
+
+  /// Within a segment the basis is mixed here, once, instead of for each vertex: 3 K + 4 numbers go to the card.
+  #blend(frames, weights) {
+    const { reelBlend, reelBlended } = this.uniforms, { image } = reelBlend.value, { tables } = this.clip;
+    const begin = mixedBasis(tables, frames, weights, image.data);
+    reelBlended.value.set(begin, begin < 0 ? 0 : tables.frames[8 * frames[weights.findIndex((weight) => weight !== 0)] + 1]);
+    if (begin >= 0) reelBlend.value.needsUpdate = true;
+  }
+  #makeBlend() {
+    const { reelBlend } = this.uniforms, width = this.clip.blendWidth;
+    reelBlend.value?.dispose();
+    reelBlend.value = texture({ values: new Float32Array(4 * width), height: 1, width });
   }
 
   /// Shows another clip from now on, of a surface with as many materials: more segments of the same file, or another level.
@@ -221,6 +241,7 @@ export class ReelMesh extends Mesh {
     this.geometry = clip.geometry;
     this.uniforms.reelRows.value = clip.rows;
     for (const [name, value] of Object.entries(clip.textures)) this.uniforms[name].value = value;
+    this.#makeBlend();
     this.player.duration = clip.timeline.duration;
     this.player.seek(this.player.time);
     return this;
@@ -239,6 +260,7 @@ export class ReelMesh extends Mesh {
 
   dispose() {
     undress(this);
+    this.uniforms.reelBlend.value.dispose();
   }
 }
 

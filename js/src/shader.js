@@ -12,6 +12,8 @@ attribute vec2 reelRow; // of positions, of tangents
 #else
   uniform ivec4 reelFrame;
   uniform vec4 reelWeight;
+  uniform highp sampler2D reelBlend; // the basis at this time: mean, then x, y, z of four components, ...
+  uniform ivec2 reelBlended; // where its coefficients begin, K / 4; 0: it is of several segments, to be mixed from the frames
 #endif
 
 vec4 reelTexel( highp sampler2D table, int i ) { return texelFetch( table, ivec2( i & 2047, i >> 11 ), 0 ); }
@@ -67,15 +69,28 @@ struct ReelMix { ivec4 frame; vec4 weight; };
 #endif
 
 // layer 0: the position; 1, 2: the tangents
+int reelRowOf( int layer ) { return layer == 0 ? int( reelRow.x ) : reelRows + 2 * int( reelRow.y ) + layer - 1; }
+
 vec3 reelSum( ReelMix now, int layer ) {
   vec3 sum = vec3( 0.0 );
+  #ifndef REEL_CROWD
+    if ( reelBlended.y > 0 ) {
+      int at = reelBlended.x + reelRowOf( layer ) * reelBlended.y;
+      if ( layer == 0 ) sum = texelFetch( reelBlend, ivec2( 0 ), 0 ).xyz;
+      for ( int k = 0; k < reelBlended.y; ++ k ) {
+        vec4 c = reelTexel( reelCoefficients, at + k );
+        sum += vec3( dot( c, texelFetch( reelBlend, ivec2( 3 * k + 1, 0 ), 0 ) ), dot( c, texelFetch( reelBlend, ivec2( 3 * k + 2, 0 ), 0 ) ),
+          dot( c, texelFetch( reelBlend, ivec2( 3 * k + 3, 0 ), 0 ) ) );
+      }
+      return sum;
+    }
+  #endif
   for ( int n = 0; n < 4; ++ n ) {
     float weight = now.weight[ n ];
     if ( weight == 0.0 ) continue;
     vec4 head = reelTexel( reelFrames, 2 * now.frame[ n ] );
     int fours = int( head.y ), basis = int( head.z );
-    int row = layer == 0 ? int( reelRow.x ) : reelRows + 2 * int( reelRow.y ) + layer - 1;
-    int at = int( head.x ) + ( int( head.w ) << 20 ) + row * fours;
+    int at = int( head.x ) + ( int( head.w ) << 20 ) + reelRowOf( layer ) * fours;
     vec3 part = layer == 0 ? reelTexel( reelFrames, 2 * now.frame[ n ] + 1 ).xyz : vec3( 0.0 );
     for ( int k = 0; k < fours; ++ k ) {
       vec4 c = reelTexel( reelCoefficients, at + k );

@@ -16,10 +16,12 @@ export const policy = "default-src 'none'; script-src 'self' 'nonce-map' 'wasm-u
 export async function serve() {
   const server = createServer((request, response) => {
     const path = normalize(root + decodeURIComponent(new URL(request.url, 'http://x').pathname));
-    if (request.url === '/empty.html') {
+    if (request.url === '/empty.html' || request.url === '/bench.html') {
       response.writeHead(200, { 'Content-Type': 'text/html', 'Content-Security-Policy': policy });
       response.end(`<!doctype html><meta charset=utf-8><title>meshreel</title><script type=importmap nonce=map>
-        {"imports": {"three": "/js/node_modules/three/build/three.module.js"}}</script><canvas width=256 height=256></canvas>`);
+        {"imports": {"three": "/js/node_modules/three/build/three.module.js", "three/addons/": "/js/node_modules/three/examples/jsm/",
+        "meshoptimizer": "/js/node_modules/meshoptimizer/meshopt_decoder.mjs"}}</script><canvas width=256 height=256></canvas>
+        ${request.url === '/bench.html' ? '<script src="/js/node_modules/draco3d/draco_decoder_nodejs.js"></script>' : ''}`);
     } else if (!path.startsWith(root) || !existsSync(path) || !statSync(path).isFile()) {
       response.writeHead(404).end();
     } else {
