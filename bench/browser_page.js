@@ -129,16 +129,19 @@ async function openGltf(file) {
   const { scene: found } = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).loadAsync(file);
   show(found);
 }
-/// One mesh with an attribute for each frame.
+/// One mesh with positions, and attributes of many frames each.
 async function openDraco(file) {
   const bytes = new Int8Array(await (await fetch(file)).arrayBuffer());
   const draco = await DracoDecoderModule({ locateFile: (name) => `/js/node_modules/draco3d/${name}` });
   const decoder = new draco.Decoder(), mesh = new draco.Mesh();
-  decoder.DecodeArrayToMesh(bytes, bytes.length, mesh);
-  const values = new draco.DracoFloat32Array(), V = mesh.num_points(), frames = [];
+  const status = decoder.DecodeArrayToMesh(bytes, bytes.length, mesh);
+  if (!status.ok()) throw new Error(status.error_msg());
+  const V = mesh.num_points(), frames = [];
   for (let i = 0; i < mesh.num_attributes(); ++i) {
-    decoder.GetAttributeFloatForAllPoints(mesh, decoder.GetAttribute(mesh, i), values);
-    frames.push(Float32Array.from({ length: 3 * V }, (_, n) => values.GetValue(n)));
+    const attribute = decoder.GetAttribute(mesh, i), count = attribute.num_components() * V, at = draco._malloc(4 * count);
+    decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, draco.DT_FLOAT32, 4 * count, at);
+    frames.push(new Float32Array(draco.HEAPF32.buffer, at, count).slice());
+    draco._free(at);
   }
   const size = 12 * mesh.num_faces(), at = draco._malloc(size);
   decoder.GetTrianglesUInt32Array(mesh, size, at);

@@ -60,6 +60,6 @@ if [ $want_peers = yes ]; then
     npm ci --prefix "$root/lab/peers" --no-audit --no-fund --loglevel=error >&2
 fi
 
-if [ $want_wasm = yes ] && [ ! -d "$root/js/node_modules/playwright-core" ]; then
+if [ $want_wasm = yes ] && { [ ! -d "$root/js/node_modules/playwright-core" ] || [ ! -d "$root/js/node_modules/esbuild" ]; }; then
     npm install --prefix "$root/js" --no-package-lock --no-audit --no-fund --loglevel=error >&2
 fi
