@@ -22,6 +22,10 @@ def sizes_of_fields(lines):
         if len(words) > 2 and words[2].startswith("SEGM.payload."):
             name = words[2].removeprefix("SEGM.payload.")
             sizes[name] = sizes.get(name, 0) + int(words[1])
+            if name == "basis_size":  # reel has all its bits in one field
+                sizes["basis_bits"] = sizes.get("basis_bits", 0) + int(words[3])
+    if "bits" in sizes:
+        sizes["residual_bits"] = sizes.pop("bits") - sizes["basis_bits"]
     return sizes
 
 

@@ -85,6 +85,10 @@ class Sections(unittest.TestCase):
         lines = ["  10   5  SEGM.payload.basis_bits  2 bytes: 00 01 ...", "  20   7  SEGM.payload.basis_bits  4 bytes"]
         self.assertEqual(runner.sizes_of_fields(lines), {"basis_bits": 12})
 
+    def test_bits_of_one_field_are_told_apart_by_the_size_of_the_basis(self):
+        lines = ["  10   2  SEGM.payload.basis_size  300", "  12   1000  SEGM.payload.bits  1000 bytes: 00 01 ..."] * 2
+        self.assertEqual(runner.sizes_of_fields(lines), {"basis_size": 4, "basis_bits": 600, "residual_bits": 1400})
+
 
 class Measurements(unittest.TestCase):
     """The programs on a generated animation."""

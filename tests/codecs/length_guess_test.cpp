@@ -117,3 +117,21 @@ TEST(LengthGuess, WhatDoesNotFitInTheMemoryLimitIsRefusedAtTheField)
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().field, "SEGM.ways");
 }
+
+TEST(LengthGuess, MoreWorkThanAFewBytesMayCauseIsRefusedAndNoEncoderAsksForIt)
+{
+    const Prepared cloth(*shapes::generate(*shapes::find("cloth"), {.vertices = 900, .frames = 500}));
+    const codecs::Codec& reel = *codecs::find("reel");
+    const auto payload = [&](double step, bool lengths) {
+        return reel.prepare(cloth.sequence(), 12, {1})
+            ->encode({.step = step, .bases = 12, .lengths = lengths, .threads = {1}})
+            .payload;
+    };
+    const Bytes fine = payload(1e-3, true);
+    EXPECT_NE(fine, payload(1e-3, false));
+    EXPECT_TRUE(decoded(reel, fine, cloth).ok());
+    const Result<Matrix<float>> refused = decoded(reel, fine, cloth, {.max_work = 100});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().field, "SEGM.ways");
+    EXPECT_EQ(payload(4.0, true), payload(4.0, false));
+}

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,14 @@ struct InterpolationLaw {
     double step = 1.0;             ///< D: the noise of all that is known
     std::uint32_t growth = 5;      ///< batches grow by so many eighths of the components known, and more: batch_end
     std::uint32_t neighbours = 16; ///< of each vertex, 1 .. Interpolation::most; fewer are faster
+
+    /// Where a batch of components that begins at k of `all` ends. The more are known, the less a few more tell; and a
+    /// last batch of little is not worth weights of its own.
+    std::size_t batch_end(std::size_t k, std::size_t all) const
+    {
+        const std::size_t size = std::max<std::size_t>(1, k * growth / 8 + k * k / 64);
+        return k + size + size / 4 < all ? k + size : all;
+    }
 };
 
 /// Orders the vertices of a surface by their first components, and weighs their neighbours by all that are known.
@@ -33,14 +42,8 @@ public:
 
     const CoarseToFine& order() const { return order_; }
 
-    /// Where a batch of components that begins at k ends. The more are known, the less a few more tell; and a last batch of
-    /// little is not worth weights of its own.
-    std::size_t batch_end(std::size_t k) const
-    {
-        const std::size_t all = relevance_.size();
-        const std::size_t size = std::max<std::size_t>(1, k * law_.growth / 8 + k * k / 64);
-        return k + size + size / 4 < all ? k + size : all;
-    }
+    /// Where a batch of components that begins at k ends.
+    std::size_t batch_end(std::size_t k) const { return law_.batch_end(k, relevance_.size()); }
 
     struct Weights {
         std::size_t count = 0;

@@ -208,6 +208,12 @@ void LengthGuess::descend(Guess& guess, const Interpolation::Weights& near) cons
     }
 }
 
+std::uint64_t LengthGuess::terms(std::uint64_t K)
+{
+    constexpr std::uint64_t pull = 4; // products and a root of each of three coordinates
+    return (2 * guess_passes - 1) * K + guess_passes * guess_steps * most_lengths * pull;
+}
+
 std::uint64_t LengthGuess::bytes(std::uint64_t W, std::uint64_t F, std::uint64_t K)
 {
     return 8 * W * (3 * F + K);

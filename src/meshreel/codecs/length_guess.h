@@ -37,6 +37,9 @@ public:
     Matrix<double> corrections(std::span<const std::uint32_t> vertices, std::span<const Interpolation::Weights> weights,
                                MatrixView<const double> C, Batch batch) const;
 
+    /// Products a coordinate that one batch costs, nearly.
+    static std::uint64_t terms(std::uint64_t K);
+
     /// What it allocates at most: trajectories, and corrections. W vertices, F frames, K components.
     static std::uint64_t bytes(std::uint64_t W, std::uint64_t F, std::uint64_t K);
 

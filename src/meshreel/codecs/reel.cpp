@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <type_traits>
 
 #include "meshreel/base/text.h"
 #include "meshreel/codecs/choice.h"
@@ -14,6 +13,7 @@
 #include "meshreel/codecs/length_guess.h"
 #include "meshreel/codecs/level_walk.h"
 #include "meshreel/codecs/pose_walk.h"
+#include "meshreel/codecs/reel_payload.h"
 #include "meshreel/codecs/relaxation.h"
 #include "meshreel/codecs/surface_walk.h"
 #include "meshreel/container/explain.h"
@@ -22,77 +22,7 @@ namespace meshreel::codecs {
 
 namespace {
 
-constexpr std::size_t most_levels = 16;                           // of a quarter each, 4^16 vertices
-constexpr std::uint64_t most_part_bytes = std::uint64_t{1} << 40; // sums do not overflow
-
-/// Bytes of one level of detail.
-struct LevelSize {
-    std::uint64_t bytes = 0;
-
-    void fields(auto& io) { io.varint("bytes", bytes, {0, most_part_bytes}, "of level_bits that are this level's"); }
-};
-
-constexpr std::uint32_t taper_one = 256;
-constexpr double noise_unit = 1.0 / 256; // of the step
-constexpr std::uint32_t most_noise = 1u << 20;
-constexpr std::uint32_t way_mixed = 1, way_lengths = 2;             // of `ways`
 constexpr std::uint64_t most_length_bytes = std::uint64_t{1} << 29; // that an encoder asks of its readers
-
-struct ReelPayload {
-    std::uint32_t bases = 0;
-    double step = 1.0, first_step = 1.0, basis_step = 1.0;
-    std::array<float, 3> origin{};
-    std::uint32_t taper = 0;
-    InterpolationLaw law;
-    std::uint32_t ways = way_mixed, length_noise = 0;
-    std::uint64_t basis_size = 0, first_size = 0;
-    std::vector<LevelSize> levels;
-    ByteView bits;
-
-    double taper_exponent() const { return taper / static_cast<double>(taper_one); }
-
-    /// The variance that Relaxation::relax takes.
-    double relaxed_noise() const
-    {
-        const double deviation = step * (length_noise * noise_unit);
-        return deviation * deviation;
-    }
-
-    bool has(std::uint32_t way) const { return (ways & way) != 0; }
-
-    /// body(how many contexts a level is coded under, as a constant)
-    auto with_contexts(const auto& body) const
-    {
-        return has(way_mixed) ? body(std::integral_constant<std::size_t, 3>{})
-                              : body(std::integral_constant<std::size_t, 1>{});
-    }
-
-    void fields(auto& io)
-    {
-        io.varint("bases", bases, {0, 3'000'000}, "K, the number of eigentrajectories");
-        io.f64("step", step, container::positive, "D, quantisation step of the coefficients, model units");
-        io.f64("first_step", first_step, container::positive, "the step of coefficients 0, 1, 2");
-        io.f64("basis_step", basis_step, container::positive, "step of the poses, scaled by what they weigh");
-        io.f32("origin_x", origin[0], container::finite, "added to the mean's x in every frame");
-        io.f32("origin_y", origin[1], container::finite, "likewise y");
-        io.f32("origin_z", origin[2], container::finite, "likewise z");
-        io.varint("taper", taper, {0, taper_one},
-                  "2^-8: to which power of their share of vertices coarse levels are finer");
-        io.f64("linear", law.linear, {0.0, 1e6}, "trust in motions known already against smoothness");
-        io.f64("squared_bend", law.squared_bend, {1e-6, 1e6}, "c^2 of the multiquadric");
-        io.varint(
-            "ways", ways, {0, way_mixed | way_lengths},
-            "sum of 1: levels are coded under three contexts at once, not only the first; 2: guesses keep lengths");
-        io.varint("neighbours", law.neighbours, {1, Interpolation::most}, "vertices that one is interpolated from");
-        io.varint("growth", law.growth, {1, 1'000'000}, "batches grow by so many eighths of the components known");
-        io.varint("length_noise", length_noise, {0, most_noise},
-                  "deviation of edge lengths that frames are relaxed for, in 1/256 of step; 0: they are not");
-        io.varint("basis_size", basis_size, {0, most_part_bytes}, "bytes of basis_bits");
-        io.varint("first_size", first_size, {0, most_part_bytes}, "bytes of first_bits");
-        io.list("levels", levels, {1, most_levels}, "levels of detail, the coarsest first");
-        io.rest("bits", bits, "basis_bits (poses), first_bits (coefficients 0, 1, 2), level_bits (the others)");
-    }
-};
 
 /// The three streams of a payload.
 struct ReelBits {
@@ -169,6 +99,14 @@ Matrix<double> first_of(MatrixView<const double> C)
     return first;
 }
 
+/// Products a coordinate that guesses keeping lengths cost, of all batches.
+std::uint64_t length_terms(const InterpolationLaw& law, std::size_t K)
+{
+    std::uint64_t terms = 0;
+    for (std::size_t k = first_components; k < K; k = law.batch_end(k, K)) terms += LengthGuess::terms(K);
+    return terms;
+}
+
 /// From coarse to fine.
 std::vector<std::size_t> rising(std::vector<std::size_t> counts)
 {
@@ -212,10 +150,36 @@ public:
 
     Trial encode(const Settings& settings) const override
     {
+        Settings usual = settings;
+        usual.lengths = settings.lengths && lengths_fit(pca_.singular_values.size());
+        Trial trial = encode_as(usual);
+        if (!usual.lengths || lengths_pay(settings.growth, trial)) return trial;
+        usual.lengths = false;
+        return encode_as(usual);
+    }
+
+private:
+    /// Whether readers have room for them.
+    bool lengths_fit(std::size_t K) const
+    {
+        return LengthGuess::bytes(sequence_.surface.vertex_count, sequence_.frames.rows, K) <= most_length_bytes;
+    }
+
+    /// Whether there is a guess at all, and readers do not refuse its work for so few bytes, nor for those of a coarse
+    /// level, half of the file at least.
+    bool lengths_pay(std::uint32_t growth, const Trial& trial) const
+    {
+        InterpolationLaw law;
+        law.growth = growth;
+        const std::uint64_t coordinates = 3 * std::uint64_t{sequence_.surface.vertex_count} * sequence_.frames.rows;
+        const std::uint64_t terms = length_terms(law, trial.bases);
+        return terms > 0 && within_work({}, coordinates, 2 * terms, trial.payload.size()).ok();
+    }
+
+    Trial encode_as(const Settings& settings) const
+    {
         CodedBasis coded = code_basis(settings);
         return trial_of(std::move(coded.basis), settings, [&](const Basis& basis, MatrixView<double> C) {
-            if (settings.lengths && LengthGuess::bytes(C.rows, basis.mean.size() / 3, C.cols) <= most_length_bytes)
-                coded.head.ways |= way_lengths;
             code_coefficients(coded, settings, basis, C);
             if (settings.relax) relax(coded.head, basis, C, settings.threads);
             coded.head.bits = coded.bits;
@@ -223,7 +187,6 @@ public:
         });
     }
 
-private:
     struct CodedBasis {
         ReelPayload head;
         Basis basis;
@@ -243,7 +206,7 @@ private:
         coded.head.taper = static_cast<std::uint32_t>(std::lround(settings.taper * taper_one));
         coded.head.law = {settings.linear, settings.squared_bend, coded.head.step, settings.growth,
                           settings.neighbours};
-        coded.head.ways = settings.mixed ? way_mixed : 0;
+        coded.head.ways = (settings.mixed ? way_mixed : 0) | (settings.lengths ? way_lengths : 0);
         for (std::size_t c = 0; c < 3; ++c) coded.head.origin[c] = static_cast<float>(pca_.mean[c * F]);
         for (std::size_t K = bases_of(settings, pca_.singular_values, W);;) {
             Matrix<double> Y = poses_of(pca_, K, coded.head, W);
@@ -379,6 +342,18 @@ Status check_room(const ReelReader& reader, const Coded& coded, std::uint64_t ne
                      at_byte(coded.payload.offset));
 }
 
+/// @fails limit: keeping lengths takes more memory or work than one file may.
+Status check_lengths(const ReelReader& reader, const Coded& coded)
+{
+    if (!reader.head.has(way_lengths)) return Ok{};
+    const std::uint64_t W = coded.surface.vertex_count, F = coded.frame_count;
+    MESHREEL_CHECK(check_room(reader, coded, LengthGuess::bytes(W, F, reader.K), "ways"));
+    const Status work =
+        within_work(coded.limits, 3 * W * F, length_terms(reader.head.law, reader.K), coded.payload.bytes.size());
+    if (work.ok()) return Ok{};
+    return bad_input(work.error().message, concat(coded.payload.name, ".ways"), at_byte(coded.payload.offset));
+}
+
 /// The components after the first ones.
 Status read_levels(const ReelReader& reader, const Coded& coded, const LevelsWay& way, const Coefficients& result)
 {
@@ -418,8 +393,7 @@ Result<Trajectories> read_trajectories(const ReelReader& reader, const Coded& co
     const Interpolation interpolation(first_of(result.C.view()).view(), relevance_of(weighed.energies), reader.head.law,
                                       coded.threads);
     const LevelsWay way{reader.head, interpolation, result.basis, coded.threads};
-    if (reader.head.has(way_lengths))
-        MESHREEL_CHECK(check_room(reader, coded, LengthGuess::bytes(W, coded.frame_count, reader.K), "ways"));
+    MESHREEL_CHECK(check_lengths(reader, coded));
     MESHREEL_CHECK(read_levels(reader, coded, way, {result.C.view(), L.view(), reader.first}));
     return result;
 }
