@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds every fuzz target and runs each for some seconds (default 10): tools/fuzz.sh [SECONDS [SEED [TARGET...]]].
 # The same seed, the same inputs. FUZZ_JOBS: how many at once, default one a core. FUZZ_WITHOUT: targets to leave out, a regular
-# expression. At most 512 MB each, 20 s an input.
+# expression. At most 512 MB each, 120 s an input (of the clock: a busy machine stretches them).
 # Ends with a table: runs, processor seconds, what is covered of the code that the target holds, the corpus, findings.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
@@ -36,7 +36,7 @@ run_one() {
     mapfile -t -O 1 folders < <(seeds_of "$name")
     mkdir -p "$corpus"
     TIMEFORMAT='cpu_seconds %U %S'
-    if { time "$out/fuzz/$name" -max_total_time="$seconds" -seed="$seed" -timeout=20 -rss_limit_mb=512 -max_len=8192 \
+    if { time "$out/fuzz/$name" -max_total_time="$seconds" -seed="$seed" -timeout=120 -report_slow_units=120 -rss_limit_mb=512 -max_len=8192 \
         -print_final_stats=1 -artifact_prefix="$out/crash-$name-" "${folders[@]}"; } >"$log" 2>&1; then
         echo "fuzz: $name: $(awk '/number_of_executed_units/ {print $2}' "$log") runs, nothing found"
     else

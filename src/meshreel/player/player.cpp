@@ -102,8 +102,9 @@ void Player::add(const codecs::Trajectories& trajectories, std::size_t first, Th
             for (std::size_t k = 0; k < K; ++k)
                 piece.basis(f, 3 * k + c) = static_cast<float>(rows(K - 1 - k, c * F + f));
         }
+    float* const coefficients = piece.lines.data()->values; // of all lines, which lie side by side
     parallel_for(blocks(), threads, [&](std::size_t b) {
-        float* out = piece.lines.data()->values + b * kernel_.block * K;
+        float* out = coefficients + b * kernel_.block * K;
         const std::size_t begin = b * kernel_.block, count = std::min(kernel_.block, unique_.size() - begin);
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t k = 0; k < K; ++k)
