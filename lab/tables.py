@@ -209,9 +209,9 @@ def idle_ideas():
 
 def not_measured(name):
     """What a plan names and its results lack; nothing where they lack nothing."""
-    rows, curves = releases.read(name), plan.curves_of(plan.read(os.path.join(ROOT, "lab/plans", name + ".toml")), name)
-    lacking = lambda wanted, key: [word for word in wanted if word not in {row[key] for row in rows}]
-    found = lacking((coding.name for coding in curves.codings), "coding") + lacking(curves.sequences, "sequence")
+    rows, wanted = releases.read(name), plan.read(os.path.join(ROOT, "lab/plans", name + ".toml"))
+    lacking = lambda names, key: [word for word in names if word not in {row[key] for row in rows}]
+    found = lacking((coding["name"] for coding in wanted["coding"]), "coding") + lacking(wanted["sequence"], "sequence")
     return [f"In the plan, but not measured yet: {', '.join(found)}."] if found else []
 
 
@@ -233,10 +233,10 @@ TABLES = {
         "everyone at KG 0.1 %": lambda: level_table("everyone", "kg", 0.1),
         "everyone, speeds": lambda: speed_table("everyone", 0.1),
         "everyone without loss": lambda: exact_table("everyone"),
-        "everyone, made by": lambda: made_by("everyone"),
+        "everyone, made by": lambda: [*made_by("everyone"), "", *not_measured("everyone")],
         "codecs, KG": lambda: delta_table("codecs", "kg"),
         "codecs, STED": lambda: delta_table("codecs", "sted"),
-        "codecs, made by": lambda: made_by("codecs"),
+        "codecs, made by": lambda: [*made_by("codecs"), "", *not_measured("codecs")],
         "speeds": lambda: plain_table(of_newest("speeds"), SPEEDS),
         "speeds by release": lambda: speed_releases(rows := releases.read("speeds"), with_results(rows)),
         "posing": lambda: player_table(of_newest("player"), POSING, "all"),
