@@ -39,7 +39,8 @@ struct Source {
     /// Whether every frame is taken as it is stored.
     bool as_stored() const
     {
-        return frames.first == 0 && frames.last == io::FrameRange{}.last && frames.step == 1 && fps == 0.0 && level == 0;
+        return frames.first == 0 && frames.last == io::FrameRange{}.last && frames.step == 1 && fps == 0.0 &&
+               level == 0;
     }
 };
 
