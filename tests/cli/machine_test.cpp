@@ -40,7 +40,8 @@ protected:
         for (int i = 0; i < 25; ++i) {
             write(output, old);
             meshreel::cli_test::Start dying;
-            dying.killed_after_us = 1 + random() % static_cast<unsigned>(most.count() * 5 / 4);
+            dying.killed_after_us =
+                static_cast<unsigned>(1 + random() % static_cast<unsigned long>(most.count() * 5 / 4));
             const Outcome outcome = run(words, dying);
             (outcome.exit_code == 128 + 9 ? killed : done) += 1;
             const std::string there = read(output);
@@ -74,7 +75,7 @@ TEST_F(Killed, AConverterLeavesNothingThatASequenceWouldTake)
     int killed = 0;
     for (int i = 0; i < 30; ++i) {
         meshreel::cli_test::Start dying;
-        dying.killed_after_us = 1 + random() % 30'000;
+        dying.killed_after_us = static_cast<unsigned>(1 + random() % 30'000);
         killed += run("convert a.glb c.###.obj -y", dying).exit_code == 128 + 9;
     }
     EXPECT_GT(killed, 0);
