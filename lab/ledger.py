@@ -79,7 +79,7 @@ def renewed(ledger, found, made, reason):
 
 def encoded_size(command, clip, settings):
     with tempfile.TemporaryDirectory() as folder:
-        return codings.Codec(command).encode(clip, settings, folder).size
+        return codings.Codec(command, [settings]).encode(clip, settings, folder).size
 
 
 def measured(rows, command, sequences):

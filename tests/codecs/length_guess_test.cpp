@@ -122,10 +122,9 @@ TEST(LengthGuess, MoreWorkThanAFewBytesMayCauseIsRefusedAndNoEncoderAsksForIt)
 {
     const Prepared cloth(*shapes::generate(*shapes::find("cloth"), {.vertices = 900, .frames = 500}));
     const codecs::Codec& reel = *codecs::find("reel");
+    const auto encoder = reel.prepare(cloth.sequence(), 12, {1});
     const auto payload = [&](double step, bool lengths) {
-        return reel.prepare(cloth.sequence(), 12, {1})
-            ->encode({.step = step, .bases = 12, .lengths = lengths, .threads = {1}})
-            .payload;
+        return encoder->encode({.step = step, .bases = 12, .lengths = lengths, .threads = {1}}).payload;
     };
     const Bytes fine = payload(1e-3, true);
     EXPECT_NE(fine, payload(1e-3, false));
