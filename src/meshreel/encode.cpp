@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -69,13 +70,14 @@ public:
             return finished(attempt);
         }
         std::optional<Encoded> best;
+        MESHREEL_TRY(const double spread, length_spread());
         tune::Problem problem{
             [&](const codecs::Settings& settings) { return attempted(settings); },
             [&](const tune::Attempt& attempt) { return verified(attempt, best); },
             !limits_size(),
             plan_.knobs,
             plan_.rounds,
-            relaxes(),
+            spread,
             options_.progress,
             [&](tune::Attempt attempt) { return mended(std::move(attempt)); },
         };
@@ -164,6 +166,15 @@ private:
     bool relaxes() const
     {
         return codec_.detail != nullptr && !surface().triangles.empty() && !limits_distance() && !options_.fast_decode;
+    }
+
+    /// How far lengths of edges vary in the first segment; infinite where nothing is relaxed.
+    Result<double> length_spread()
+    {
+        constexpr std::size_t enough_frames = 64; // fewer tell too little of what lengths are
+        if (!relaxes() || source_.frame_count() < enough_frames) return std::numeric_limits<double>::infinity();
+        MESHREEL_TRY(const PreparedSegments::Visit segment, segments_.visit(0));
+        return tune::Meter(segment.frames, surface().triangles, options_.threads).length_spread();
     }
 
     bool limits_size() const { return std::isfinite(allowed_.bytes); }
@@ -274,7 +285,8 @@ private:
             add_segment(std::move(trial), attempt);
         }
         reached.kg = norm() > 0 ? 100 * std::sqrt(squared_error) / norm() : 0.0; // (5.2)
-        reached.rms = std::sqrt(squared_error / points());
+        attempt.mean_square = squared_error / points();
+        reached.rms = std::sqrt(attempt.mean_square);
         reached.sted = sted / static_cast<double>(source_.frame_count());
         MESHREEL_TRY(reached.bytes, file_size(attempt.payloads));
         attempt.excess = excess_of(reached, allowed_);

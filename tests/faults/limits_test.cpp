@@ -130,8 +130,8 @@ TEST(Work, BeyondItsLimitIsRefused)
 {
     const std::uint64_t many = ~std::uint64_t{0};
     EXPECT_TRUE(within_work({}, many, 256, 1).ok());
-    EXPECT_TRUE(within_work({}, 1000, 1256, 1).ok());
-    EXPECT_FALSE(within_work({}, 1000, 1257, 1).ok());
+    EXPECT_TRUE(within_work({}, 1000, 4256, 1).ok());
+    EXPECT_FALSE(within_work({}, 1000, 4257, 1).ok());
     EXPECT_FALSE(within_work({}, many, 257, 1).ok());
     EXPECT_FALSE(within_work({}, many, many, many).ok());
     EXPECT_FALSE(within_work({.max_work = 0}, 1, 257, 1).ok());

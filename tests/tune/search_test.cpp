@@ -157,7 +157,7 @@ TEST(Search, KeepsLengthsOnlyWhereRelaxingPaysAndWhereThatSavesMore)
             return attempt;
         };
         problem.knobs = {truncation};
-        problem.relax = true;
+        problem.spread = 0;
         const auto best = tune::cheapest(problem, {.step = 0.02});
         ASSERT_TRUE(best.ok());
         EXPECT_EQ(best->settings.relax, c.relax);

@@ -10,14 +10,14 @@
 namespace meshreel {
 
 /// Upper bounds on what a reader or decoder accepts. The last two bound what a small .reel file may cause: a file of n bytes
-/// becomes at most 64 MiB + 10^6 n bytes, by at most 256 multiplications for each of its coordinates and 10^6 n more.
+/// becomes at most 64 MiB + 10^6 n bytes, by at most 256 multiplications for each of its coordinates and 4 10^6 n more.
 struct DecodeLimits {
     std::uint64_t max_vertices = 100'000'000;  ///< V
     std::uint64_t max_triangles = 200'000'000; ///< T
     std::uint64_t max_frames = 1'000'000;      ///< F
     std::uint64_t max_memory = 16ull << 30;    ///< bytes that one file may make us hold
     std::uint64_t max_expansion = 1'000'000;   ///< bytes of frames a byte of the file, beyond the first 64 MiB
-    std::uint64_t max_work = 1'000'000; ///< multiplications a byte of a segment, beyond the first 256 a coordinate
+    std::uint64_t max_work = 4'000'000; ///< multiplications a byte of a segment, beyond the first 256 a coordinate
 
     static constexpr std::uint64_t free_bytes = 64ull << 20;
     static constexpr std::uint64_t free_work = 256;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "meshreel/mesh/frame_source.h"
 #include "meshreel/metrics/sted.h"
@@ -86,6 +88,32 @@ double Meter::sted(const codecs::Trajectories& decoded) const
     metrics::StedOptions options;
     options.threads = threads_;
     return metrics::sted_spatial(metrics::Pair<double>{originals.view(), posed.view(), triangles_}, options);
+}
+
+double Meter::length_spread() const
+{
+    constexpr std::size_t enough = 2048; // triangles
+    const std::size_t stride = triangles_.size() / enough + 1;
+    std::vector<double> variances;
+    for (std::size_t t = 0; t < triangles_.size(); t += stride)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t i = 3ul * triangles_[t][c], j = 3ul * triangles_[t][(c + 1) % 3];
+            double sum = 0, squares = 0, first = 0;
+            for (std::size_t f = 0; f < frames_.rows; ++f) {
+                const float* x = frames_.row(f).data();
+                const double dx = x[i] - x[j], dy = x[i + 1] - x[j + 1], dz = x[i + 2] - x[j + 2];
+                const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
+                if (f == 0) first = length;
+                sum += length - first;
+                squares += (length - first) * (length - first);
+            }
+            const double F = static_cast<double>(frames_.rows);
+            variances.push_back(squares / F - (sum / F) * (sum / F));
+        }
+    if (variances.empty()) return std::numeric_limits<double>::infinity();
+    const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+    std::nth_element(variances.begin(), middle, variances.end());
+    return *middle;
 }
 
 double mean_edge(std::span<const float> frame, std::span<const Triangle> triangles)

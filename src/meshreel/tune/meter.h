@@ -31,6 +31,10 @@ public:
     /// @cost that of 32 frames, or of 2 million points.
     double sted(const codecs::Trajectories& decoded) const;
 
+    /// The variance over time of the length of an edge: the median over some edges, model units squared. Infinite where
+    /// there are none.
+    double length_spread() const;
+
     std::size_t frame_count() const { return frames_.rows; }
 
 private:

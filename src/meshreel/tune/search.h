@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "meshreel/base/progress.h"
@@ -21,6 +22,7 @@ struct Attempt {
     std::uint32_t bases = 0;                             ///< K, of the segment that has most
     double step = 0.0;                                   ///< D, model units
     std::vector<std::vector<codecs::Nudge>> nudges = {}; ///< of each segment, for vertices that miss the limit
+    double mean_square = 0.0;                            ///< of what a vertex is off, model units squared
 };
 
 /// A setting worth varying, and how: up and down by a factor, within a range.
@@ -36,7 +38,9 @@ struct Problem {
     bool rises = true;            ///< the excess rises with the step, as errors do; sizes fall
     std::vector<Knob> knobs = {}; ///< varied one after another, each for as long as it pays
     int rounds = 1;               ///< how often all of them
-    bool relax = false;           ///< whether to try Settings::relax, then Settings::lengths, before the knobs
+    double spread = std::numeric_limits<double>::infinity(); ///< of lengths, Meter::length_spread; where it is a tenth
+                                                             ///< of what attempts are off at most, Settings::relax is
+                                                             ///< tried before the knobs, then Settings::lengths
     Progress progress = {};
     std::function<Result<Attempt>(Attempt)> mend = {}; ///< the same settings again, where a few vertices miss the limit
 };
