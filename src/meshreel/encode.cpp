@@ -165,7 +165,8 @@ private:
     /// Whether frames may be drawn towards lengths of edges: not where a vertex could be drawn beyond a limit.
     bool relaxes() const
     {
-        return codec_.detail != nullptr && !surface().triangles.empty() && !limits_distance() && !options_.fast_decode;
+        return codec_.detail != nullptr && !plan_.knobs.empty() && !surface().triangles.empty() && !limits_distance() &&
+               !options_.fast_decode;
     }
 
     /// How far lengths of edges vary in the first segment; infinite where nothing is relaxed.

@@ -15,9 +15,8 @@ Status check_bases(const Coded& coded, std::uint64_t K)
     if (2 * n + 2 * W > coded.limits.max_memory / 8 / (K + 1))
         return bad_input("the basis and its coefficients do not fit in the memory limit", field,
                          at_byte(coded.payload.offset));
-    Status work = within_work(coded.limits, n * W, K, coded.payload.bytes.size());
-    if (work.ok()) return work;
-    return bad_input(work.error().message, field, at_byte(coded.payload.offset));
+    return at_part(within_work(coded.limits, n * W, K, coded.payload.bytes.size()), coded.payload, coded.payload.bytes,
+                   "bases");
 }
 
 Status at_part(Status status, const container::Source& source, ByteView part, std::string_view field)

@@ -338,8 +338,8 @@ Status check_room(const ReelReader& reader, const Coded& coded, std::uint64_t ne
 {
     const std::uint64_t there = 8 * std::uint64_t{reader.K} * (coded.surface.vertex_count + 3 * coded.frame_count);
     if (needed + there <= coded.limits.max_memory) return Ok{};
-    return bad_input("what it asks for does not fit in the memory limit", concat(coded.payload.name, ".", field),
-                     at_byte(coded.payload.offset));
+    return at_part(bad_input("what it asks for does not fit in the memory limit"), coded.payload, coded.payload.bytes,
+                   field);
 }
 
 /// @fails limit: keeping lengths takes more memory or work than one file may.
@@ -348,10 +348,9 @@ Status check_lengths(const ReelReader& reader, const Coded& coded)
     if (!reader.head.has(way_lengths)) return Ok{};
     const std::uint64_t W = coded.surface.vertex_count, F = coded.frame_count;
     MESHREEL_CHECK(check_room(reader, coded, LengthGuess::bytes(W, F, reader.K), "ways"));
-    const Status work =
-        within_work(coded.limits, 3 * W * F, length_terms(reader.head.law, reader.K), coded.payload.bytes.size());
-    if (work.ok()) return Ok{};
-    return bad_input(work.error().message, concat(coded.payload.name, ".ways"), at_byte(coded.payload.offset));
+    const std::uint64_t terms = length_terms(reader.head.law, reader.K);
+    return at_part(within_work(coded.limits, 3 * W * F, terms, coded.payload.bytes.size()), coded.payload,
+                   coded.payload.bytes, "ways");
 }
 
 /// The components after the first ones.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshreel/base/wide.h"
+#include "meshreel/codecs/length_sums.h"
 
 namespace meshreel::codecs {
 
@@ -36,20 +37,6 @@ std::uint64_t relax_run(std::uint64_t W)
 struct Spring {
     ElasticEdge edge;
     double length = 0.0, weight = 0.0;
-};
-
-/// Sums over frames of what should be 0 on the mean, less `base`, which it is in the first frame; and of the squares.
-struct LengthSums {
-    double base = 0.0, sum = 0.0, squares = 0.0;
-
-    void add(double value)
-    {
-        const double more = value - base;
-        sum += more;
-        squares += more * more;
-    }
-    double mean(double F) const { return base + sum / F; }
-    double variance(double F) const { return std::max(0.0, squares / F - (sum / F) * (sum / F)); }
 };
 
 /// Each edge of two different vertices once, in rising order.
@@ -308,11 +295,7 @@ double Relaxation::noise_of(MatrixView<const double> C, MatrixView<const float> 
                                       sums.data() + from);
             });
         });
-    std::vector<double> variances;
-    for (const LengthSums& of_edge : sums) variances.push_back(of_edge.variance(static_cast<double>(blocks_.frames)));
-    const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
-    std::nth_element(variances.begin(), middle, variances.end());
-    return *middle;
+    return middle_variance(sums, static_cast<double>(blocks_.frames));
 }
 
 void Relaxation::relax(MatrixView<double> C, double noise) const

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "meshreel/codecs/length_sums.h"
 #include "meshreel/mesh/frame_source.h"
 #include "meshreel/metrics/sted.h"
 
@@ -54,6 +55,24 @@ private:
     std::vector<codecs::Nudge> nudges_;
 };
 
+/// From vertex i to vertex j.
+double length_in(std::span<const float> frame, std::uint32_t i, std::uint32_t j)
+{
+    double square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double d = double{frame[3ul * i + axis]} - frame[3ul * j + axis];
+        square += d * d;
+    }
+    return std::sqrt(square);
+}
+
+codecs::LengthSums lengths_over_time(MatrixView<const float> frames, std::uint32_t i, std::uint32_t j)
+{
+    codecs::LengthSums sums{.base = length_in(frames.row(0), i, j)};
+    for (std::size_t f = 0; f < frames.rows; ++f) sums.add(length_in(frames.row(f), i, j));
+    return sums;
+}
+
 } // namespace
 
 Meter::Distances Meter::distances(const codecs::Trajectories& decoded, double limit) const
@@ -93,42 +112,19 @@ double Meter::sted(const codecs::Trajectories& decoded) const
 double Meter::length_spread() const
 {
     constexpr std::size_t enough = 2048; // triangles
-    const std::size_t stride = triangles_.size() / enough + 1;
-    std::vector<double> variances;
-    for (std::size_t t = 0; t < triangles_.size(); t += stride)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::size_t i = 3ul * triangles_[t][c], j = 3ul * triangles_[t][(c + 1) % 3];
-            double sum = 0, squares = 0, first = 0;
-            for (std::size_t f = 0; f < frames_.rows; ++f) {
-                const float* x = frames_.row(f).data();
-                const double dx = x[i] - x[j], dy = x[i + 1] - x[j + 1], dz = x[i + 2] - x[j + 2];
-                const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
-                if (f == 0) first = length;
-                sum += length - first;
-                squares += (length - first) * (length - first);
-            }
-            const double F = static_cast<double>(frames_.rows);
-            variances.push_back(squares / F - (sum / F) * (sum / F));
-        }
-    if (variances.empty()) return std::numeric_limits<double>::infinity();
-    const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
-    std::nth_element(variances.begin(), middle, variances.end());
-    return *middle;
+    std::vector<codecs::LengthSums> sums;
+    for (std::size_t t = 0; t < triangles_.size(); t += triangles_.size() / enough + 1)
+        for (std::size_t c = 0; c < 3; ++c)
+            sums.push_back(lengths_over_time(frames_, triangles_[t][c], triangles_[t][(c + 1) % 3]));
+    if (sums.empty()) return std::numeric_limits<double>::infinity();
+    return codecs::middle_variance(sums, static_cast<double>(frames_.rows));
 }
 
 double mean_edge(std::span<const float> frame, std::span<const Triangle> triangles)
 {
     double sum = 0;
     for (const Triangle& triangle : triangles)
-        for (std::size_t i = 0; i < 3; ++i) {
-            double square = 0;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const double d =
-                    static_cast<double>(frame[3ul * triangle[i] + axis]) - frame[3ul * triangle[(i + 1) % 3] + axis];
-                square += d * d;
-            }
-            sum += std::sqrt(square);
-        }
+        for (std::size_t c = 0; c < 3; ++c) sum += length_in(frame, triangle[c], triangle[(c + 1) % 3]);
     return triangles.empty() ? 0.0 : sum / (3.0 * static_cast<double>(triangles.size()));
 }
 
