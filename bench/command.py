@@ -29,6 +29,20 @@ def run(command, *options):
     return timed(command, *options)[0]
 
 
+def print_table(columns, rows):
+    """A table as Markdown, each row as soon as it is there."""
+    print("| " + " | ".join(columns) + " |\n|" + "---|" * len(columns), flush=True)
+    for row in rows:
+        print("| " + " | ".join(map(str, row)) + " |", flush=True)
+
+
+def generated(options, folder, shape, V, F):
+    """A made sequence; its point cache and its mesh."""
+    motion, mesh = os.path.join(folder, "m.pc2"), os.path.join(folder, "m.obj")
+    run(options.command, "generate", shape, motion, "--mesh", mesh, "--vertices", V, "--frames", F, "-y")
+    return motion, mesh
+
+
 def paths_of(data, name):
     """The point cache and the mesh of a real sequence; None where it is not here."""
     motion, mesh = (os.path.join(data, name, file) for file in ("motion.pc2", "mesh.obj"))
