@@ -1,22 +1,23 @@
-/// Makes js/dist from build-wasm: the decoder, a classic worker, and both within one module.
+/// Makes js/dist from build-wasm: the decoder, classic workers, and decoder and worker within one module.
 // SPDX-License-Identifier: MIT
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+
+import { build } from 'esbuild';
 
 const here = new URL('./', import.meta.url);
 const read = (name) => readFileSync(new URL(name, here));
 const write = (name, bytes) => writeFileSync(new URL(`dist/${name}`, here), bytes);
 
-/// Modules one after the other as one script: no imports, no exports, no line that says nothing.
-function script(names) {
-  const lines = names.flatMap((name) => read(`src/${name}`).toString().split('\n'))
-    .filter((line) => !/^\s*\/\//.test(line) && !/^import .*;$/.test(line) && line.trim() !== '')
-    .map((line) => line.replace(/^export /, ''));
-  return `(() => {\n'use strict';\n${lines.join('\n')}\n})();\n`;
+/// A module and what it imports as one script.
+async function script(name) {
+  const { outputFiles } = await build({ entryPoints: [new URL(`src/${name}`, here).pathname], bundle: true, minify: true, format: 'iife', target: 'es2022', write: false });
+  return outputFiles[0].text;
 }
 
 mkdirSync(new URL('dist/', here), { recursive: true });
-const worker = script(['decoder.js', 'job.js', 'worker.js']);
-write('worker.js', worker);
+const worker = await script('clip_worker.js');
+write('clip-worker.js', worker);
+write('worker.js', await script('decode_worker.js'));
 for (const name of ['meshreel', 'meshreel-all']) write(`${name}.wasm`, read(`../build-wasm/${name}.wasm`));
 const carried = (name) => JSON.stringify(read(`../build-wasm/${name}.wasm`).toString('base64'));
 for (const [name, wasm] of [['inline', 'meshreel'], ['inline-all', 'meshreel-all']])

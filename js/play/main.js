@@ -3,7 +3,7 @@
 import { LoopOnce, LoopPingPong, LoopRepeat } from 'three';
 
 import { readBack } from '../src/readback.js';
-import { ReelPlayer } from '../src/reel.js';
+import { ReelPlayer } from '../src/player.js';
 import { controls } from './controls.js';
 import { figures, lengthText } from './figures.js';
 import { colourOf, distances, heatMaterial, showHeat } from './heat.js';

@@ -1,7 +1,8 @@
 /// Where the page's animations come from: a server's list, or the page itself.
 // SPDX-License-Identifier: MIT
-import { ReelClip } from '../src/reel.js';
-import { ReelError, decodeReel } from '../src/decode.js';
+import { ReelClip } from '../src/clip.js';
+import { decodeClips } from '../src/clips.js';
+import { ReelError } from '../src/decode.js';
 import { readSheet } from './sheet.js';
 
 /// What is to be played: { items: [{ name, kind, url, bytes, levels, original }] }.
@@ -33,29 +34,13 @@ export async function* clipsOf(item, { level = 0, frames = false, signal }) {
     yield { clip: new ReelClip(head, [piece]), head, pieces: [piece], whole: true };
     return;
   }
-  const options = { all: true, single: true, frames, signal, coarseLevel: level || 2, levelAlone: level > 0 };
-  yield* growing(decodeReel(source, options), level);
-}
-
-/// Tables are made anew for each clip: not for each segment, but when there is twice as much, or a second has gone by.
-async function* growing(events, level) {
-  let head = null, pieces = [], shown = 0, at = 0;
-  const made = () => {
-    const { firstFrame, frameCount } = pieces.at(-1);
-    [shown, at] = [pieces.length, performance.now()];
-    return { clip: new ReelClip(head, pieces), head, pieces, whole: firstFrame + frameCount === head.frameCount };
-  };
-  try {
-    for await (const { type, head: given, piece } of events) {
-      if (type === 'head') head ??= given;
-      if (type === 'level' && !level) yield { clip: new ReelClip(head, [piece]), head, pieces: [], whole: false };
-      if (!piece || (type === 'level' && !level)) continue;
-      pieces.push(piece);
-      const whole = piece.firstFrame + piece.frameCount === head.frameCount;
-      if (whole || pieces.length >= 2 * shown || performance.now() > at + 1000) yield made();
-    }
-  } catch (error) {
-    if (pieces.length > shown) yield made();
-    throw error;
+  let head = null;
+  const pieces = [], shown = level > 0 ? 'level' : 'segment';
+  for await (const event of decodeClips(source, { all: true, steps: true, frames, signal, coarseLevel: level || 2, levelAlone: level > 0 })) {
+    if (event.type === 'head') head = event.head;
+    if (event.type === shown) pieces.push(event.piece);
+    if (event.type !== 'clip') continue;
+    const clip = new ReelClip(head, event.data), whole = pieces.length > 0 && clip.head.frameCount === head.frameCount;
+    yield { clip, head, pieces, whole };
   }
 }

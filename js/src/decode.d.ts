@@ -20,5 +20,6 @@ export declare function decoderModule(all?: boolean): Promise<WebAssembly.Module
 export declare function disposeDecoder(): void;
 export declare function usePlaces(places: {
   module?: (all: boolean) => Promise<WebAssembly.Module>;
-  worker?: () => Worker;
+  /** The worker of that script, `worker.js` or `clip-worker.js`; the latter does the former's work too. */
+  worker?: (script: string) => Worker;
 }): void;

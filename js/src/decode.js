@@ -4,16 +4,16 @@ import { ReelError } from './decoder.js';
 import { chunksOf, eventsOf } from './job.js';
 
 let modules = new Map(); // compiled, by where they came from
-let worker = null;
-let waiting = new Map(); // for the worker's messages, by number
+let workers = new Map(); // by script
+let waiting = new Map(); // for the workers' messages, by number
 let count = 0;
 
 const made = (name) => new URL(`../dist/${name}`, import.meta.url).href;
 
-/// Where decoder and worker come from. src/inline.js replaces it by what it carries itself.
+/// Where decoder and workers come from. src/inline.js replaces it by what it carries itself.
 const places = {
   module: (all) => WebAssembly.compileStreaming(fetch(made(all ? 'meshreel-all.wasm' : 'meshreel.wasm'))),
-  worker: () => new Worker(made('worker.js')),
+  worker: (script) => new Worker(made(script)),
 };
 
 export function usePlaces(others) {
@@ -28,17 +28,20 @@ export function decoderModule(all = false) {
   return modules.get(all);
 }
 
-/// Ends the worker; the next decodeReel() starts another.
+/// Ends the workers; the next decodeReel() starts another.
 export function disposeDecoder() {
-  worker?.terminate();
-  worker = null;
+  for (const worker of workers.values()) worker.terminate();
+  workers = new Map();
   for (const told of waiting.values()) told({ error: { message: 'the decoder was disposed of', code: 1 } });
   waiting = new Map();
 }
 
-function theWorker() {
-  if (worker) return worker;
-  worker = places.worker();
+/// The worker of a way, or one that knows more.
+export function startWorker({ script }) {
+  const running = workers.get(script) ?? workers.get('clip-worker.js');
+  if (running || typeof Worker === 'undefined') return running;
+  const worker = places.worker(script);
+  workers.set(script, worker);
   worker.onmessage = ({ data }) => waiting.get(data.id)?.(data);
   worker.onerror = (event) => {
     for (const told of waiting.values()) told({ error: { message: event.message || 'the worker cannot run', code: 4 } });
@@ -51,18 +54,24 @@ function theWorker() {
 /// { type: 'done' }. options: coarseLevel, maxMemory, base (see Decoder.create); all: every codec; frames, single (see
 /// eventsOf); worker: false decodes in this thread; signal: an AbortSignal.
 /// @throws ReelError
-export async function* decodeReel(source, { worker: apart = true, all = false, signal, ...options } = {}) {
-  const module = await decoderModule(all);
+export const decodeReel = (source, options = {}) => runApart({ script: 'worker.js', events: eventsOf }, source, options);
+
+/// The events of a file by a way to make them: in the worker of that script, else here. Worker, decoder and file are fetched at
+/// the same time.
+export async function* runApart(way, source, { worker: apart = true, all = false, signal, ...options }) {
+  const module = decoderModule(all);
   if (!apart || typeof Worker === 'undefined') {
-    yield* eventsOf(chunksOf(source, signal), module, options);
+    yield* way.events(chunksOf(source, signal), module, options);
     return;
   }
   if (typeof source === 'string' || source instanceof URL) source = new URL(source, globalThis.location?.href).href;
+  const worker = startWorker(way);
   if (source instanceof Response) source = source.body ?? new Uint8Array(await source.arrayBuffer());
-  yield* apartEvents(source, module, options, signal);
+  yield* toldBy(worker, { source, options, script: way.script }, module, signal);
 }
 
-async function* apartEvents(source, module, options, signal) {
+/// The events that a worker tells of a task.
+async function* toldBy(worker, task, module, signal) {
   const id = ++count, told = [];
   let wake = () => {};
   const tell = (message) => {
@@ -70,12 +79,12 @@ async function* apartEvents(source, module, options, signal) {
     wake();
   };
   waiting.set(id, tell);
-  const abort = () => tell({ error: signal.reason });
+  const fail = (error) => tell({ error }), abort = () => fail(signal.reason);
   signal?.addEventListener('abort', abort);
   try {
     signal?.throwIfAborted();
-    const own = theWorker();
-    own.postMessage({ id, source, module, options }, source instanceof ReadableStream ? [source] : []);
+    worker.postMessage({ id, ...task }, task.source instanceof ReadableStream ? [task.source] : []);
+    module.then((compiled) => waiting.has(id) && worker.postMessage({ id, module: compiled }), fail);
     for (;;) {
       while (told.length === 0) await new Promise((done) => (wake = done));
       const { event, error } = told.shift();
@@ -87,7 +96,7 @@ async function* apartEvents(source, module, options, signal) {
   } finally {
     signal?.removeEventListener('abort', abort);
     waiting.delete(id);
-    worker?.postMessage({ id, abort: true });
+    worker.postMessage({ id, abort: true });
   }
 }
 

@@ -3,7 +3,7 @@
 import type {
   AnimationActionLoopStyles, BufferGeometry, EventDispatcher, InstancedMesh, Loader, LoadingManager, Material, Mesh, MeshStandardMaterial,
 } from 'three';
-import type { DecodeOptions, ReelEvent, ReelHead, ReelPiece, ReelSource } from './decode.js';
+import type { DecodeOptions, ReelHead, ReelPiece, ReelSource } from './decode.js';
 
 export { ReelError, decodeReel } from './decode.js';
 export type * from './decode.js';
@@ -70,6 +70,13 @@ export declare class ReelCrowd extends InstancedMesh<BufferGeometry, Material | 
   dispose(): this;
 }
 
+/** What a file told of itself. The numbers of its pieces stay in the worker. */
+export type ReelNews =
+  | { type: 'head'; head: ReelHead }
+  | { type: 'level' | 'segment'; piece: Omit<ReelPiece, 'mean' | 'basis' | 'coefficients'> }
+  | { type: 'done' };
+export type ClipOptions = DecodeOptions & { onEvent?: (event: ReelNews) => void };
+
 export declare class ReelLoader extends Loader<ReelMesh> {
   constructor(manager?: LoadingManager);
   /** Whether files of every codec are read. */
@@ -77,9 +84,9 @@ export declare class ReelLoader extends Loader<ReelMesh> {
   decodeOptions: DecodeOptions;
   preload(): Promise<WebAssembly.Module>;
   load(url: string, onLoad?: (mesh: ReelMesh) => void, onProgress?: (progress: any) => void, onError?: (error: unknown) => void): void;
-  loadClip(source: ReelSource, options?: DecodeOptions & { onEvent?: (event: ReelEvent) => void }): Promise<ReelClip>;
+  loadClip(source: ReelSource, options?: ClipOptions): Promise<ReelClip>;
   /** Clips of a file on its way, each of more than the one before: a coarse level, the segments so far, all. */
-  loadClips(source: ReelSource, options?: DecodeOptions & { onEvent?: (event: ReelEvent) => void }): AsyncGenerator<ReelClip, void, void>;
+  loadClips(source: ReelSource, options?: ClipOptions): AsyncGenerator<ReelClip, void, void>;
   parse(buffer: ArrayBuffer, onLoad?: (mesh: ReelMesh) => void, onError?: (error: unknown) => void): Promise<ReelMesh>;
   dispose(): this;
 }

@@ -1,5 +1,7 @@
 /// meshreel for three.js.
 // SPDX-License-Identifier: MIT
-export { ReelLoader } from './loader.js';
-export { ReelClip, ReelCrowd, ReelMesh, ReelPlayer } from './reel.js';
+export { ReelClip } from './clip.js';
 export { ReelError, decodeReel } from './decode.js';
+export { ReelLoader } from './loader.js';
+export { ReelPlayer } from './player.js';
+export { ReelCrowd, ReelMesh } from './reel.js';

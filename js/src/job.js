@@ -27,22 +27,26 @@ export async function* chunksOf(source, signal) {
   }
 }
 
-/// The events of a file, as Decoder.take() gives them. options.frames: pieces have their exact frames too, as those without
-/// coefficients always do; options.single: coefficients as float32.
+/// The events of a file, as Decoder.take() gives them. module: compiled, or a promise of it. options.frames: pieces have their
+/// exact frames too, as those without coefficients always do; options.single: coefficients as float32.
 export async function* eventsOf(chunks, module, options = {}) {
-  const decoder = await Decoder.create(module, options);
+  const first = chunks.next(); // comes while the decoder is compiled
+  first.catch(() => {}); // it is thrown below
+  let decoder = null;
   const finished = (event) => {
-    if (event.piece && options.single) event.piece.coefficients = Float32Array.from(event.piece.coefficients);
+    if (event.piece && options.single) event.piece.coefficients = new Float32Array(event.piece.coefficients);
     if (event.piece && (options.frames || event.piece.exact)) event.piece.frames = decoder.frames();
     return event;
   };
   try {
-    for await (const chunk of chunks) {
-      decoder.push(chunk);
+    decoder = await Decoder.create(await module, options);
+    for (let part = await first; !part.done; part = await chunks.next()) {
+      decoder.push(part.value);
       for (const event of decoder.take()) yield finished(event);
     }
     for (const event of decoder.take(true)) yield finished(event);
   } finally {
-    decoder.close();
+    decoder?.close();
+    chunks.return().catch(() => {});
   }
 }

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 import { Loader } from 'three';
 
-import { ReelError, decodeReel, decoderModule, disposeDecoder } from './decode.js';
-import { ReelClip, ReelMesh } from './reel.js';
+import { ReelClip } from './clip.js';
+import { decodeClips, startClipWorker } from './clips.js';
+import { ReelError, decoderModule, disposeDecoder } from './decode.js';
+import { ReelMesh } from './reel.js';
 
 export class ReelLoader extends Loader {
   constructor(manager) {
@@ -12,38 +14,32 @@ export class ReelLoader extends Loader {
     this.decodeOptions = {};
   }
 
-  /// Fetches and compiles the decoder, so that the first file need not wait for it.
+  /// Fetches and compiles the decoder and starts its worker, so that the first file need not wait for them.
   preload() {
+    startClipWorker();
     return decoderModule(this.all);
   }
 
   /// The clip in a file: of an address, an ArrayBuffer, a Response, a stream, a Blob. @throws ReelError
-  async loadClip(source, { onEvent, ...options } = {}) {
-    let head = null;
-    const pieces = [];
-    for await (const event of decodeReel(source, { all: this.all, single: true, ...this.decodeOptions, ...options })) {
-      if (event.type === 'head') head = event.head;
-      if (event.type === 'segment') pieces.push(event.piece);
-      onEvent?.(event);
-    }
-    return new ReelClip(head, pieces);
+  async loadClip(source, options) {
+    let found = null;
+    for await (const made of this.#made(source, options)) found = made;
+    return new ReelClip(found.head, found.data);
   }
 
   /// Clips of a file on its way, each of more than the one before: of level `coarseLevel` of the first segment (2; 0: none), of
-  /// the segments so far, of all. mesh.change() puts them on; whoever took one disposes of it. @throws ReelError
-  async *loadClips(source, { onEvent, coarseLevel = 2, ...options } = {}) {
-    let head = null, told = 0;
-    const pieces = [];
-    for await (const event of decodeReel(source, { all: this.all, single: true, coarseLevel, ...this.decodeOptions, ...options })) {
-      onEvent?.(event);
+  /// the segments so far, of all. mesh.change() puts them on; whoever took one disposes of it. @throws ReelError, after a clip of
+  /// what was whole
+  async *loadClips(source, options) {
+    for await (const { head, data } of this.#made(source, { steps: true, coarseLevel: 2, ...options })) yield new ReelClip(head, data);
+  }
+
+  async *#made(source, { onEvent, ...options } = {}) {
+    let head = null;
+    for await (const event of decodeClips(source, { all: this.all, ...this.decodeOptions, ...options })) {
       if (event.type === 'head') head = event.head;
-      if (event.type === 'level') yield new ReelClip(head, [event.piece]);
-      if (event.type !== 'segment') continue;
-      pieces.push(event.piece);
-      const whole = event.piece.firstFrame + event.piece.frameCount === head.frameCount;
-      if (!whole && pieces.length < 2 * told) continue; // tables are made anew each time
-      told = pieces.length;
-      yield new ReelClip(head, pieces);
+      if (event.type === 'clip') yield { head, data: event.data };
+      else onEvent?.(event);
     }
   }
 

@@ -1,93 +1,15 @@
-/// A reel in three.js: a clip on the GPU, meshes and crowds that wear any material, and the control of its time.
+/// A reel in three.js: meshes and crowds that wear any material and play a clip.
 // SPDX-License-Identifier: MIT
 import {
-  Box3, BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, InstancedBufferAttribute, InstancedMesh, Mesh,
-  MeshDepthMaterial, MeshDistanceMaterial, MeshStandardMaterial, NearestFilter, RGBADepthPacking, RGBAFormat, Sphere, Vector3, Vector4,
-  EventDispatcher, LoopOnce, LoopPingPong, LoopRepeat, Vector2,
+  BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedMesh, Mesh, MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking,
+  Vector2, Vector4,
 } from 'three';
 
-import { ReelData, mixedBasis, mixedRows, tableWidth } from './clip.js';
+import { texture } from './clip.js';
+import { mixedBasis } from './mix.js';
+import { ReelPlayer } from './player.js';
 import { reelVertexShader } from './shader.js';
-
-const names = { normal: null, tangent: 'tangent', uv0: 'uv', uv1: 'uv1', uv2: 'uv2', uv3: 'uv3', color0: 'color' };
-
-function texture({ values, height, width = tableWidth }) {
-  const made = new DataTexture(values, width, height, RGBAFormat, FloatType);
-  made.minFilter = made.magFilter = NearestFilter;
-  made.needsUpdate = true;
-  return made;
-}
-
-/// One decoded file on the GPU: as many meshes and crowds as wanted share it. dispose() frees it. pieces: the segments, or those
-/// of one level, perhaps not yet all of them; the head is then that of what is there.
-export class ReelClip {
-  constructor(head, pieces) {
-    const data = new ReelData(head, pieces);
-    this.head = data.head;
-    this.timeline = data.timeline;
-    this.textures = { reelCoefficients: texture(data.coefficients), reelBasis: texture(data.basis), reelFrames: texture(data.frames) };
-    this.rows = data.rows;
-    this.blendWidth = 1 + 3 * Math.min(680, Math.ceil(Math.max(...data.pieces.map((piece) => piece.K)) / 4));
-    this.geometry = ReelClip.#geometry(data);
-    this.gpuBytes = Object.values(this.textures).reduce((sum, each) => sum + each.image.data.byteLength, 0);
-  }
-
-  static #geometry(data) {
-    const { index, groups, count, attributes } = data.surface, geometry = new BufferGeometry();
-    const rest = Float32Array.from({ length: 3 * count }, (_, i) => data.rest[3 * data.rowOf[(i / 3) | 0] + (i % 3)]);
-    const rows = Float32Array.from({ length: 2 * count }, (_, i) => (i % 2 ? data.tangentRowOf : data.rowOf)[i >> 1]);
-    geometry.setIndex(new BufferAttribute(index, 1));
-    geometry.setAttribute('position', new BufferAttribute(rest, 3));
-    geometry.setAttribute('normal', new BufferAttribute(data.normals, 3));
-    geometry.setAttribute('reelRow', new BufferAttribute(rows, 2));
-    for (const { name, components, normalized, values } of attributes) {
-      const known = name in names ? names[name] : `reel_${name.replace(/\W/g, '_')}`;
-      if (known && components <= 4) geometry.setAttribute(known, new BufferAttribute(values, components, normalized));
-    }
-    for (const { start, count: size, material } of groups) geometry.addGroup(start, size, material);
-    const { min, max } = data.bounds();
-    geometry.boundingBox = new Box3(new Vector3(...min), new Vector3(...max)).expandByScalar(0.02 * new Vector3(...max).distanceTo(new Vector3(...min)));
-    geometry.boundingSphere = geometry.boundingBox.getBoundingSphere(new Sphere());
-    return geometry;
-  }
-
-  /// Positions of the rows, [3 rows], at seconds from the first frame, as the GPU shows them.
-  rowsAt(time, out = new Float32Array(3 * this.rows)) {
-    const frames = new Int32Array(4), weights = new Float64Array(4);
-    this.timeline.mix(this.timeline.start + time, frames, weights);
-    return mixedRows(this.tables, frames, weights, out);
-  }
-  get tables() {
-    const [coefficients, basis, frames] = Object.values(this.textures).map((each) => each.image.data);
-    return { coefficients, basis, frames };
-  }
-
-  /// Where a row is in every stored frame, [3 F].
-  pathOf(row) {
-    const { coefficients: C, basis, frames: table } = this.tables, F = this.timeline.times.length;
-    const path = new Float32Array(3 * F);
-    for (let f = 0; f < F; ++f) {
-      const count = table[8 * f + 1], at = 4 * (table[8 * f] + table[8 * f + 3] * 2 ** 20 + count * row);
-      for (let c = 0; c < 3; ++c) {
-        let sum = table[8 * f + 4 + c];
-        for (let k = 0; k < 4 * count; ++k) sum += C[at + k] * basis[4 * (table[8 * f + 2] + 3 * (k >> 2) + c) + (k & 3)];
-        path[3 * f + c] = sum;
-      }
-    }
-    return path;
-  }
-
-  /// Standard materials, one for each that the file names.
-  materials() {
-    const of = (name) => Object.assign(new MeshStandardMaterial({ side: DoubleSide, vertexColors: 'color' in this.geometry.attributes }), { name });
-    return this.geometry.groups.length > 0 ? this.head.materials.map(of) : of(this.head.materials[0] ?? '');
-  }
-
-  dispose() {
-    for (const each of Object.values(this.textures)) each.dispose();
-    this.geometry.dispose();
-  }
-}
+import { gatherRows } from './tables.js';
 
 /// Materials of one object, each made to take its vertices from the clip.
 class Wardrobe {
@@ -120,64 +42,11 @@ class Wardrobe {
   }
 }
 
-/// Plays: time, direction, speed, ends. update(seconds) every frame, as an AnimationMixer.
-/// Dispatches 'loop' and 'finished'.
-export class ReelPlayer extends EventDispatcher {
-  constructor(timeline, show) {
-    super();
-    this.duration = timeline.duration;
-    this.time = 0; ///< seconds from the first frame
-    this.speed = 1; ///< below 0: backwards
-    this.loop = LoopRepeat; ///< or LoopOnce, LoopPingPong
-    this.playing = false;
-    this.show = show;
-  }
-
-  play() {
-    this.playing = true;
-    return this;
-  }
-  pause() {
-    this.playing = false;
-    return this;
-  }
-  reverse() {
-    this.speed = -this.speed;
-    return this;
-  }
-  /// Goes to a time, at once.
-  seek(time) {
-    this.time = Math.min(Math.max(time, 0), this.duration);
-    this.show(this.time);
-    return this;
-  }
-
-  update(seconds) {
-    if (!this.playing || this.duration === 0) return;
-    let time = this.time + seconds * this.speed;
-    if (time < 0 || time > this.duration) time = this.#turned(time);
-    this.seek(time);
-  }
-
-  #turned(time) {
-    if (this.loop === LoopOnce) {
-      this.playing = false;
-      this.dispatchEvent({ type: 'finished', direction: Math.sign(this.speed) });
-      return time;
-    }
-    this.dispatchEvent({ type: 'loop', direction: Math.sign(this.speed) });
-    const length = this.duration, turns = Math.floor(time / length), rest = time - turns * length;
-    if (this.loop !== LoopPingPong || turns % 2 === 0) return rest;
-    this.reverse();
-    return length - rest;
-  }
-}
-
 /// The vertices shown at a time, as a geometry that rays can meet.
 function posed(clip, time) {
-  const rows = clip.rowsAt(time), { index, groups, attributes: { reelRow, uv } } = clip.geometry, geometry = new BufferGeometry();
-  const positions = Float32Array.from({ length: 3 * reelRow.count }, (_, i) => rows[3 * reelRow.getX((i / 3) | 0) + (i % 3)]);
-  geometry.setIndex(index).setAttribute('position', new BufferAttribute(positions, 3));
+  const { index, groups, attributes: { reelRow, uv } } = clip.geometry, geometry = new BufferGeometry();
+  const rowOf = reelRow.array.filter((_, i) => i % 2 === 0);
+  geometry.setIndex(index).setAttribute('position', new BufferAttribute(gatherRows(clip.rowsAt(time), rowOf), 3));
   if (uv) geometry.setAttribute('uv', uv);
   geometry.groups = groups;
   return geometry;
@@ -232,7 +101,7 @@ export class ReelMesh extends Mesh {
   #makeBlend() {
     const { reelBlend } = this.uniforms, width = this.clip.blendWidth;
     reelBlend.value?.dispose();
-    reelBlend.value = texture({ values: new Float32Array(4 * width), height: 1, width });
+    reelBlend.value = texture(new Float32Array(4 * width), width);
   }
 
   /// Shows another clip from now on, of a surface with as many materials: more segments of the same file, or another level.
