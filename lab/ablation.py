@@ -5,7 +5,6 @@ An idea is a patch of lab/ablation that takes it out; its first lines say what i
 lab/results/ablation.csv and docs/figures/ablation.svg; lab/tables.py makes the tables of docs/ablation.md of them."""
 # SPDX-License-Identifier: MIT
 import argparse
-import glob
 import os
 import shutil
 import subprocess
@@ -15,23 +14,18 @@ import bench
 import codings
 import ideas
 import plan
-from journal import Journal
-from race import Race
+from options import ROOT, declare
 from section import write_csv
-from sequences import Sequences
 
-ROOT = bench.ROOT
 NEEDED = ("CMakeLists.txt", "cmake", "src", "cli")  # what the command is built from
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--plan", default=os.path.join(ROOT, "lab/plans/ablation.toml"))
-    parser.add_argument("--build", default=os.path.join(ROOT, "build"), help="where meshreel is (default: build)")
-    parser.add_argument("--data", default=os.path.join(ROOT, "../shared/data"), help="a folder a sequence (default: ../shared/data)")
-    parser.add_argument("--cache", default=os.path.join(ROOT, ".cache/lab"), help="what was measured already (default: .cache/lab)")
+    declare(parser, "build", "data", "cache")
     parser.add_argument("--jobs", default="2", help="of the compiler (default: 2)")
-    parser.add_argument("--fresh", action="store_true", help="also measure anew what another build measured that makes the same files")
+    bench.declare_fresh(parser)
     return parser.parse_args()
 
 
@@ -72,28 +66,21 @@ class Workshop:
         shutil.copy(os.path.join(self.build, "meshreel"), target)
 
 
-def main():
-    options = arguments()
-    os.environ["MESHREEL_BUILD"] = os.path.abspath(options.build)
-    curves = plan.curves_of(plan.read(options.plan), "ablation")
-    known, folder = ideas.read(), os.path.join(options.build, "ablation")
-    workshop = Workshop(folder, options.jobs)
+def build_all(curves, options):
+    """The commands that the plan names, each without its idea."""
+    known, workshop = ideas.read(), Workshop(os.path.join(options.build, "ablation"), options.jobs)
     for coding in curves.codings:
         if coding.build:
             print(f"without {coding.name}", file=sys.stderr, flush=True)
             workshop.make(known[coding.name], os.path.join(ROOT, coding.build))
-    command = codings.Command(os.path.join(options.build, "meshreel"))
-    race = Race(curves, command, Sequences(command, options.data, os.path.join(options.cache, "made")),
-                Journal(os.path.join(options.cache, "journal.jsonl")))
-    codecs = bench.codecs_of(curves, command, options.fresh)
-    outcome = race.run(codecs)
-    for why in outcome.skipped:
-        print(f"skipped: {why}", file=sys.stderr)
-    if not outcome.rows:
-        return 1
-    outcome.rows = [bench.rounded(row) for row in outcome.rows]
-    head = [bench.said(curves, argparse.Namespace(points=None)), *bench.made_by(options, race, codecs)]
-    write_csv(os.path.join(ROOT, "lab/results/ablation.csv"), outcome.rows, head)
+
+
+def main():
+    options = arguments()
+    curves = plan.curves_of(plan.read(options.plan), "ablation")
+    build_all(curves, options)
+    race, codecs = bench.raced(options, curves)
+    write_csv(os.path.join(ROOT, "lab/results/ablation.csv"), race.outcome.rows, bench.head_of(curves, bench.made_by(options, race, codecs)))
     return subprocess.call([sys.executable, os.path.join(ROOT, "lab/ideas.py")])
 
 

@@ -16,26 +16,27 @@ import plan
 import provenance
 import report
 from journal import Journal
+from options import ROOT, declare
 from race import Race
 from section import write_csv
 from sequences import Sequences
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-
 KEPT = ("kg", "sted")  # the curves that docs/figures has
+
+
+def declare_fresh(parser):
+    parser.add_argument("--fresh", action="store_true", help="also measure anew what another build measured that makes the same files")
 
 
 def arguments(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("plan", help="such as lab/plans/codecs.toml")
-    parser.add_argument("--build", default=os.path.join(ROOT, "build"), help="where meshreel is (default: build)")
-    parser.add_argument("--data", default=os.path.join(ROOT, "../shared/data"), help="a folder a sequence (default: ../shared/data)")
-    parser.add_argument("--cache", default=os.path.join(ROOT, ".cache/lab"), help="what was measured already (default: .cache/lab)")
+    declare(parser, "build", "data", "cache")
     parser.add_argument("--out", help="the folder of what comes out (default: build/lab/PLAN)")
     parser.add_argument("--only", help="sequences, by comma")
     parser.add_argument("--points", type=int, help="so many of each curve's points, for a first look")
     parser.add_argument("--runs", type=int, help="how often each file is made, for the times (default: as the plan says)")
-    parser.add_argument("--fresh", action="store_true", help="also measure anew what another build of meshreel measured that makes the same files")
+    declare_fresh(parser)
     parser.add_argument("--keep", action="store_true", help="also renew lab/results/PLAN.csv and the curves in docs/figures")
     return parser.parse_args(words)
 
@@ -62,9 +63,20 @@ def wanted(options):
 def codecs_of(curves, command, fresh=False):
     """{coding's name: what encodes and decodes it}."""
     peers = {peer.name: peer for peer in codings.peers_here()}
-    of_build = lambda build: codings.Command(os.path.join(ROOT, build, "meshreel")) if build else command
-    return {coding.name: codings.PeerCodec(peers[coding.peer]) if coding.peer else codings.Codec(of_build(coding.build), coding.points, fresh or bool(coding.build))
-            for coding in curves.codings}
+
+    def codec_of(coding):
+        if coding.peer:
+            return codings.PeerCodec(peers[coding.peer])
+        own = codings.Command(os.path.join(ROOT, coding.build, "meshreel")) if coding.build else command
+        return codings.Codec(own, coding.points, fresh or bool(coding.build))
+
+    return {coding.name: codec_of(coding) for coding in curves.codings}
+
+
+def other_programs(race, codecs):
+    """{build of meshreel: how many files} of files that another build than those asked for made."""
+    asked = {codec.command.identity for codec in codecs.values() if isinstance(codec, codings.Codec)}
+    return {program: count for program, count in Counter(race.outcome.programs).items() if program not in asked}
 
 
 def made_by(options, race, codecs):
@@ -73,20 +85,35 @@ def made_by(options, race, codecs):
              f"load {statistics.median(loads or [math.nan]):.1f}, the median while measuring; times are the processor's, at one thread",
              f"meshreel sha256 {provenance.digest(os.path.join(options.build, 'meshreel'))[:16]}"]
     lines += [f"{coding.name}: meshreel of {coding.build}, sha256 {codecs[coding.name].command.identity}" for coding in curves.codings if coding.build]
-    others = Counter(race.outcome.programs) - Counter({codec.command.identity: len(race.outcome.programs) for codec in codecs.values() if isinstance(codec, codings.Codec)})
-    lines += [f"{count} files by meshreel sha256 {program}, which makes the same of small animations" for program, count in others.items()]
+    lines += [f"{count} files by meshreel sha256 {program}, which makes the same of small animations"
+              for program, count in other_programs(race, codecs).items()]
     lines += [f"{codec.peer.name}: {codec.version}" for codec in codecs.values() if isinstance(codec, codings.PeerCodec)]
     return lines + [f"{name} sha256 {checksum[:16]}" for name, checksum in sorted(checksums.items())]
 
 
-def said(curves, options):
-    """The plan, and what was left out of it."""
-    return f"plan {curves.name}.toml, runs {curves.runs}" + (f", {options.points} points of each curve" if options.points else "")
+def head_of(curves, lines, points=None):
+    """The head of a CSV file: the plan with what was left out of it, and what made the rows."""
+    return [f"plan {curves.name}.toml, runs {curves.runs}" + (f", {points} points of each curve" if points else ""), *lines]
 
 
 def rounded(row):
     """Six digits say all that a measurement says."""
     return {key: float(f"{value:.6g}") if isinstance(value, float) else value for key, value in row.items()}
+
+
+def raced(options, curves):
+    """Runs a plan: the race, whose rows are rounded, and its codecs."""
+    command = codings.Command(os.path.join(options.build, "meshreel"))
+    sequences = Sequences(command, options.data, os.path.join(options.cache, "made"))
+    codecs = codecs_of(curves, command, options.fresh)
+    race = Race(curves, command, sequences, Journal(os.path.join(options.cache, "journal.jsonl")))
+    outcome = race.run(codecs)
+    for why in outcome.skipped:
+        print(f"skipped: {why}", file=sys.stderr)
+    if not outcome.rows:
+        sys.exit("nothing could be measured")
+    outcome.rows = [rounded(row) for row in outcome.rows]
+    return race, codecs
 
 
 def draw(folder, curves, outcome, only=None):
@@ -104,21 +131,11 @@ def main(words=None):
     os.environ |= {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")}  # before NumPy: peers have one thread too
     os.environ["MESHREEL_BUILD"] = os.path.abspath(options.build)  # where peers that are programs of ours are
     curves = wanted(options)
+    race, codecs = raced(options, curves)
+    outcome, lines = race.outcome, made_by(options, race, codecs)
+    head = head_of(curves, lines, options.points)
     out = options.out or os.path.join(options.build, "lab", curves.name)
     os.makedirs(out, exist_ok=True)
-    command = codings.Command(os.path.join(options.build, "meshreel"))
-    sequences = Sequences(command, options.data, os.path.join(options.cache, "made"))
-    codecs = codecs_of(curves, command, options.fresh)
-    race = Race(curves, command, sequences, Journal(os.path.join(options.cache, "journal.jsonl")))
-    outcome = race.run(codecs)
-    for why in outcome.skipped:
-        print(f"skipped: {why}", file=sys.stderr)
-    if not outcome.rows:
-        print("nothing could be measured", file=sys.stderr)
-        return 1
-    outcome.rows = [rounded(row) for row in outcome.rows]
-    lines = made_by(options, race, codecs)
-    head = [said(curves, options)] + lines
     write_csv(os.path.join(out, curves.name + ".csv"), outcome.rows, head)
     draw(out, curves, outcome)
     if options.keep:

@@ -129,7 +129,8 @@ def words_of_9_4(section, results):
     section.say(
         "Whole files with connectivity, vertex order free. The thesis' sizes are entropies; ours are bits in a file. Its K and steps are not "
         "printed: ours are what the search for the smallest file at that error finds, another balance of residuals and basis for "
-        "each method. Its bases, about 11.8 bits a value where K = 50, agree with uniform steps, so Coddyac, NA, LSP and RBFP have these, and Huffman; reel is this project's own codec.",
+        "each method. Its bases, about 11.8 bits a value where K = 50, agree with uniform steps, so Coddyac, NA, LSP and RBFP "
+        "have these, and Huffman; reel is this project's own codec.",
         "The thesis' residuals and basis add up to its bpfv for cow. For chicken they make 1.411, 1.267 and 1.234 at 400 frames; its bpfv are "
         "those of 384. For dance they do not: 0.504 is the residuals and 3 % more, without the basis; with it the file has 0.757. Its "
         "column *Entropy* falls faster than the residuals do, so it cannot be the mean over all of them; it is left out.")

@@ -9,10 +9,10 @@ import basis_sections
 import codec_sections
 from runner import Bench
 from draw import Drawer
+from options import ROOT, declare
 from plan import load
 from section import write_csv
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 # In the report's order: a plan, and what makes a section of its results. True: it draws.
 SECTIONS = [("table_8_2", basis_sections.table_8_2, False), ("table_9_2", basis_sections.table_9_2, False),
             ("figure_9_49", basis_sections.figure_9_49, True), ("figure_9_51", basis_sections.figure_9_51, True),
@@ -21,9 +21,7 @@ SECTIONS = [("table_8_2", basis_sections.table_8_2, False), ("table_9_2", basis_
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", default=os.path.join(ROOT, "build"), help="where meshreel and meshreel-lab are (default: build)")
-    parser.add_argument("--data", default=os.path.join(ROOT, "../shared/data"), help="a folder a sequence (default: ../shared/data)")
-    parser.add_argument("--cache", default=os.path.join(ROOT, ".cache/lab"), help="what was measured already (default: .cache/lab)")
+    declare(parser, "build", "data", "cache")
     parser.add_argument("--out", default=ROOT, help="the root that docs/ and lab/results/ are written in (default: here)")
     return parser.parse_args()
 

@@ -8,6 +8,7 @@ import re
 from dataclasses import dataclass
 
 import releases
+from verdicts import mean_percent
 
 PATCHES = os.path.join(releases.ROOT, "lab/ablation")
 PICTURES = [os.path.join(releases.ROOT, "docs/figures", name) for name in ("ablation.svg", "ablation-narrow.svg")]
@@ -72,33 +73,27 @@ def times(rows, which):
             for row in rows if row["coding"] != WHOLE and (row["sequence"], row["setting"]) in whole}
 
 
-def mean(values):
-    """Of percentages, as factors."""
-    values = list(values)
-    return 100 * (math.exp(sum(math.log(1 + value / 100) for value in values) / len(values)) - 1) if values else None
-
-
-def of(found, coding):
-    return [value for (_, name), value in found.items() if name == coding]
+def mean(found, coding):
+    """Of what was found of a coding, over the sequences."""
+    return mean_percent(value for (_, name), value in found.items() if name == coding)
 
 
 def sorted_ideas(rows):
     """Names, the most valuable at equal KG first."""
     found = worth(rows, "kg")
-    return sorted({name for _, name in found}, key=lambda name: -mean(of(found, name)))
+    return sorted({name for _, name in found}, key=lambda name: -mean(found, name))
 
 
 def worth_little(rows):
     """[(name, percent, the sequence that needs it most)] of ideas worth less than NOTHING percent at equal KG in the mean over sequences."""
     found = worth(rows, "kg")
     most = lambda name: max((value, sequence) for (sequence, other), value in found.items() if other == name)
-    return [(name, *most(name)) for name in sorted_ideas(rows) if mean(of(found, name)) < NOTHING]
+    return [(name, *most(name)) for name in sorted_ideas(rows) if mean(found, name) < NOTHING]
 
 
 def main():
-    from bars import Bars
-    from tables import numbers
-    rows = numbers(releases.read("ablation"))
+    from bars import Bars  # matplotlib's, which the tables do without
+    rows = releases.numbers("ablation")
     found = {"at equal KG": worth(rows, "kg"), "at equal STED": worth(rows, "sted")}
     bars = Bars(found, list(dict.fromkeys(row["sequence"] for row in rows)), sorted_ideas(rows))
     bars.wide(PICTURES[0])

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import codings
 import plan
 import provenance
+from options import ROOT, declare
 from sequences import Sequences
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 LEDGER = os.path.join(ROOT, "lab/ledger.csv")
 PLAN = os.path.join(ROOT, "lab/plans/ledger.toml")
 ELSEWHERE = 0.005  # another libm or compiler rounds otherwise in the encoder: the share by which a size may differ there
@@ -93,8 +93,7 @@ def measured(rows, command, sequences):
 
 def arguments(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--build", default=os.path.join(ROOT, "build"), help="where meshreel is (default: build)")
-    parser.add_argument("--data", default=os.path.join(ROOT, "../shared/data"), help="a folder a sequence (default: ../shared/data)")
+    declare(parser, "build", "data")
     parser.add_argument("--sequences", choices=("made", "real", "all"), default="all")
     parser.add_argument("--ledger", default=LEDGER, help=argparse.SUPPRESS)
     parser.add_argument("--plan", default=PLAN, help=argparse.SUPPRESS)

@@ -61,7 +61,7 @@ def draw_all(folder, curves, outcome, only=None):
     os.makedirs(folder, exist_ok=True)
     rate, looks = ("bpfv", "bits per frame and vertex"), styles(curves.codings)
     wanted = {name: (rate, (name, f"{about['title']}, {about['unit']}".rstrip(", "))) for name, about in outcome.about.items()}
-    wanted |= {"decoding": (rate, ("decode_mvs", "decoding, M vertices a processor second")), "encoding": (rate, ("encode_mvs", "encoding, M vertices a processor second"))}
+    wanted |= {name: (rate, (key, f"{name}, M vertices a processor second")) for name, key in (("decoding", "decode_mvs"), ("encoding", "encode_mvs"))}
     paths = []
     for name, (x, y) in wanted.items():
         if only and name not in only:

@@ -4,7 +4,8 @@ import csv
 import os
 import re
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from options import ROOT
+
 RESULTS = os.path.join(ROOT, "lab/results")
 
 
@@ -21,6 +22,16 @@ def read(name, folder=RESULTS):
         return []
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def numbers(name):
+    """The rows of a file with numbers where there are some."""
+    def value(text):
+        try:
+            return float(text)
+        except ValueError:
+            return text
+    return [{key: value(text) for key, text in row.items()} for row in read(name)]
 
 
 def renewed(old, new, known, key):

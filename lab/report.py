@@ -8,8 +8,9 @@ import re
 from verdicts import at_error, deltas, mean_delta
 
 PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page")
-FIXED_AXES = [{"key": "bpfv", "title": "rate", "unit": "bits per frame and vertex"}, {"key": "bytes", "title": "size", "unit": "bytes"},
-              {"key": "encode_mvs", "title": "encoding", "unit": "M vertices a processor second"}, {"key": "decode_mvs", "title": "decoding", "unit": "M vertices a processor second"}]
+FIXED_AXES = [{"key": key, "title": title, "unit": unit} for key, title, unit in
+              (("bpfv", "rate", "bits per frame and vertex"), ("bytes", "size", "bytes"),
+               ("encode_mvs", "encoding", "M vertices a processor second"), ("decode_mvs", "decoding", "M vertices a processor second"))]
 COMPARED_AT = {"kg": 0.1, "sted": 0.03}  # errors at which rates and speeds are set side by side
 
 

@@ -34,6 +34,17 @@ def markdown(head, rows):
     return lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
 
 
+def names_in(rows, key):
+    """Of sequences or codings, in the order in which they come."""
+    return list(dict.fromkeys(row[key] for row in rows))
+
+
+def grid(corner, names, columns, cells):
+    """A row a name, a column a column's name; cells: {(name, column): text}. Names without any cell are left out."""
+    return markdown([corner, *columns], [[name, *(cells.get((name, column), "–") for column in columns)]
+                                         for name in names if any(key[0] == name for key in cells)])
+
+
 def of_newest(name):
     """The rows of the newest release that has any."""
     rows = releases.read(name)
@@ -65,7 +76,7 @@ def with_results(rows, known=None):
 def release_table(rows, known):
     """A row a sequence and target, a column a release."""
     rates = rates_by_key(rows)
-    sequences = list(dict.fromkeys(row["sequence"] for row in rows))
+    sequences = names_in(rows, "sequence")
     keys = sorted({(row["sequence"], row["measure"], row["asked"]) for row in rows}, key=lambda key: (sequences.index(key[0]), *key[1:]))
     cells = lambda key: [f"{rates[release, *key]:.4f}" if (release, *key) in rates else "" for release in known]
     return markdown(["sequence", "at", *known], [[key[0], f"{key[1].upper()} {key[2]}{' %' if key[1] == 'kg' else ''}", *cells(key)] for key in keys])
@@ -95,85 +106,58 @@ def measure_table(rows):
     return markdown(["", "ms", "passes"], [[code(row["measure"]), row["ms"], row["passes"]] for row in rows])
 
 
-def numbers(rows):
-    """Rows of a plan's CSV file with numbers where there are some."""
-    def value(text):
-        try:
-            return float(text)
-        except ValueError:
-            return text
-    return [{key: value(text) for key, text in row.items()} for row in rows]
-
-
 def signed(delta):
-    if delta is None or delta.percent is None:
+    if delta.percent is None:
         return "–"
     return f"{delta.percent:+.0f} %{'*' if delta.share < 0.5 else ''}"
 
 
 def delta_table(name, measure):
     """Bjontegaard-delta rates of a plan's codings against its anchor."""
-    rows, curves = numbers(releases.read(name)), plan.read(os.path.join(ROOT, "lab/plans", name + ".toml"))
+    rows, curves = releases.numbers(name), plan.read(os.path.join(ROOT, "lab/plans", name + ".toml"))
     found = verdicts.deltas(rows, measure, curves["anchor"])
-    sequences = list(dict.fromkeys(row["sequence"] for row in rows))
-    lines = []
-    for coding in dict.fromkeys(coding for _, coding in found):
-        mine = {sequence: found.get((sequence, coding)) for sequence in sequences}
-        mean = verdicts.mean_delta(filter(None, mine.values()))
-        lines.append([coding, *(signed(delta) for delta in mine.values()), "–" if mean is None else f"{mean:+.0f} %"])
-    return markdown([f"against {curves['anchor']}", *sequences, "mean"], lines)
+    cells = {(coding, sequence): signed(delta) for (sequence, coding), delta in found.items()}
+    for coding in {coding for coding, _ in cells}:
+        mean = verdicts.mean_delta(delta for (_, other), delta in found.items() if other == coding)
+        cells[coding, "mean"] = "–" if mean is None else f"{mean:+.0f} %"
+    return grid(f"against {curves['anchor']}", names_in(rows, "coding"), [*names_in(rows, "sequence"), "mean"], cells)
 
 
-def level_table(name, measure, error):
-    """The rate of a plan's codings at one error."""
-    rows = numbers(releases.read(name))
-    found = verdicts.at_error(rows, measure, error)
-    sequences = list(dict.fromkeys(row["sequence"] for row in rows))
-    cell = lambda key: f"{found[key][0]:.3f}" if key in found else "–"
-    return markdown(["", *sequences], [[coding, *(cell((sequence, coding)) for sequence in sequences)]
-                                       for coding in dict.fromkeys(row["coding"] for row in rows) if any(key[1] == coding for key in found)])
+def rate_table(name, measure, error, digits=3):
+    """The rates of a plan's codings at one error."""
+    rows = releases.numbers(name)
+    found = {(coding, sequence): f"{rate:.{digits}f}" for (sequence, coding), (rate, *_) in verdicts.at_error(rows, measure, error).items()}
+    return grid("", names_in(rows, "coding"), names_in(rows, "sequence"), found)
+
+
+def exact_table(name):
+    """The rates of what comes back bit for bit."""
+    rows = [row for row in releases.numbers(name) if row["max_error_relative"] == 0]
+    found = {(row["coding"], row["sequence"]): f"{row['bpfv']:.2f}" for row in rows}
+    return grid("", names_in(rows, "coding"), names_in(rows, "sequence"), found)
+
+
+def lossless_table(name):
+    """The same of a plan that has nothing else, a sequence a row."""
+    rows = releases.numbers(name)
+    if wrong := [(row["coding"], row["sequence"]) for row in rows if row["max_error_relative"] != 0]:
+        raise ValueError(f"not without loss: {wrong}")
+    found = {(row["sequence"], row["coding"]): f"{row['bpfv']:.2f}" for row in rows}
+    return grid("sequence", names_in(rows, "sequence"), names_in(rows, "coding"), found)
 
 
 def speed_table(name, error):
     """How fast a plan's codings are at one KG error, or without loss: geometric means over the sequences on which they reach it."""
-    rows = numbers(releases.read(name))
+    rows = releases.numbers(name)
     found = {key: value[1:] for key, value in verdicts.at_error(rows, "kg", error).items()}
     found |= {(row["sequence"], row["coding"]): (row["encode_mvs"], row["decode_mvs"]) for row in rows if row["max_error_relative"] == 0}
     lines = []
-    for coding in dict.fromkeys(row["coding"] for row in rows):
+    for coding in names_in(rows, "coding"):
         mine = [speeds for (_, name), speeds in found.items() if name == coding]
         if mine:
             means = (math.exp(statistics.fmean(math.log(speed) for speed in side)) for side in zip(*mine))
             lines.append([coding, *(f"{speed:.3g}" for speed in means), len(mine)])
     return markdown(["M vertices a processor second", "encode", "decode", "sequences"], lines)
-
-
-def exact_table(name):
-    """The rate of what comes back bit for bit."""
-    rows = [row for row in numbers(releases.read(name)) if row["max_error_relative"] == 0]
-    by = {(row["coding"], row["sequence"]): f"{row['bpfv']:.2f}" for row in rows}
-    codings, sequences = (list(dict.fromkeys(row[key] for row in rows)) for key in ("coding", "sequence"))
-    return markdown(["", *sequences], [[coding, *(by.get((coding, sequence), "–") for sequence in sequences)] for coding in codings])
-
-
-def rate_table(name, measure, error):
-    """Rate of a plan's codings at one error; no times, which a busy machine stretches."""
-    found = verdicts.at_error(rows := numbers(releases.read(name)), measure, error)
-    sequences, codings = (list(dict.fromkeys(row[key] for row in rows)) for key in ("sequence", "coding"))
-    cell = lambda key: f"{found[key][0]:.2f}" if key in found else "–"
-    return markdown(["", *sequences], [[coding, *(cell((sequence, coding)) for sequence in sequences)]
-                                       for coding in codings if any(key[1] == coding for key in found)])
-
-
-def lossless_table(name):
-    """A sequence a row, a coding a column."""
-    rows = releases.read(name)
-    by = {(row["sequence"], row["coding"]): row for row in rows}
-    sequences, codings = (list(dict.fromkeys(row[key] for row in rows)) for key in ("sequence", "coding"))
-    if wrong := [key for key, row in by.items() if float(row["max_error_relative"]) != 0]:
-        raise ValueError(f"not without loss: {wrong}")
-    cells = lambda name: [f"{float(by[name, coding]['bpfv']):.2f}" if (name, coding) in by else "–" for coding in codings]
-    return markdown(["sequence", *codings], [[name, *cells(name)] for name in sequences])
 
 
 def percent(value):
@@ -182,25 +166,26 @@ def percent(value):
 
 def idea_table():
     """A row an idea: what it is worth in the mean over sequences, in bits and in time."""
-    rows, known = numbers(releases.read("ablation")), ideas.read()
+    rows, known = releases.numbers("ablation"), ideas.read()
     columns = {"bits at equal KG": ideas.worth(rows, "kg"), "at equal STED": ideas.worth(rows, "sted"),
                "encoding": ideas.times(rows, "encode_s"), "decoding": ideas.times(rows, "decode_s")}
     return markdown(["", "the idea", "without it", *columns],
-                    [[name, known[name].idea, known[name].without, *(percent(ideas.mean(ideas.of(found, name))) for found in columns.values())]
+                    [[name, known[name].idea, known[name].without, *(percent(ideas.mean(found, name)) for found in columns.values())]
                      for name in ideas.sorted_ideas(rows)])
 
 
 def idea_sequences(what):
     """A row an idea, a column a sequence; what(rows): {(sequence, idea): percent}."""
-    rows = numbers(releases.read("ablation"))
-    found, sequences = what(rows), list(dict.fromkeys(row["sequence"] for row in rows))
-    return markdown(["%", *sequences, "mean"], [[name, *(percent(found.get((sequence, name))) for sequence in sequences),
-                                                 percent(ideas.mean(ideas.of(found, name)))] for name in ideas.sorted_ideas(rows)])
+    rows = releases.numbers("ablation")
+    found = what(rows)
+    cells = {(name, sequence): percent(value) for (sequence, name), value in found.items()}
+    cells |= {(name, "mean"): percent(ideas.mean(found, name)) for name in ideas.sorted_ideas(rows)}
+    return grid("%", ideas.sorted_ideas(rows), [*names_in(rows, "sequence"), "mean"], cells)
 
 
 def idle_ideas():
     """The ideas that no sequence needs, and those that few do."""
-    little = ideas.worth_little(numbers(releases.read("ablation")))
+    little = ideas.worth_little(releases.numbers("ablation"))
     nothing = [f"**{name}** ({most:+.1f} %, {sequence})" for name, most, sequence in little if most < ideas.NOTHING]
     others = [f"**{name}** ({most:+.1f} %, {sequence})" for name, most, sequence in little if most >= ideas.NOTHING]
     return [f"Less than {ideas.NOTHING} % at equal KG error on every sequence; where they are worth most: {', '.join(nothing) or 'none'}.", "",
@@ -230,7 +215,7 @@ TABLES = {
         "everyone, KG": lambda: delta_table("everyone", "kg"),
         "everyone, STED": lambda: delta_table("everyone", "sted"),
         "everyone, largest error": lambda: delta_table("everyone", "max_error_relative"),
-        "everyone at KG 0.1 %": lambda: level_table("everyone", "kg", 0.1),
+        "everyone at KG 0.1 %": lambda: rate_table("everyone", "kg", 0.1),
         "everyone, speeds": lambda: speed_table("everyone", 0.1),
         "everyone without loss": lambda: exact_table("everyone"),
         "everyone, made by": lambda: [*made_by("everyone"), "", *not_measured("everyone")],
@@ -254,7 +239,7 @@ TABLES = {
         "ideas, made by": lambda: [*made_by("ablation"), "", *not_measured("ablation")],
     },
     "docs/peers.md": {
-        "peers at KG 0.5 %": lambda: rate_table("peers", "kg", 0.5),
+        "peers at KG 0.5 %": lambda: rate_table("peers", "kg", 0.5, digits=2),
         "peers, made by": lambda: made_by("peers"),
     },
     "src/meshreel/codecs/lossless.md": {

@@ -8,7 +8,6 @@ import unittest
 import ideas
 import plan
 import releases
-import tables
 
 PLAN = os.path.join(releases.ROOT, "lab/plans/ablation.toml")
 
@@ -55,7 +54,7 @@ class Worth(unittest.TestCase):
         self.assertEqual([(name, round(most, 6), sequence) for name, most, sequence in ideas.worth_little(rows)], [("y", 10, "a"), ("x", 0.4, "a")])
 
     def test_every_result_is_of_an_idea_that_there_is(self):
-        rows = tables.numbers(releases.read("ablation"))
+        rows = releases.numbers("ablation")
         self.assertLessEqual({row["coding"] for row in rows}, {ideas.WHOLE, *ideas.read()})
 
 

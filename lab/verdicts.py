@@ -36,10 +36,15 @@ def deltas(rows, measure, anchor):
     return result
 
 
+def mean_percent(values):
+    """Of percentages of change, as factors: the mean of their logarithms; None where there are none."""
+    known = [math.log1p(value / 100) for value in values]
+    return 100 * math.expm1(sum(known) / len(known)) if known else None
+
+
 def mean_delta(found):
-    """The mean over sequences: of the logarithms, as a rate's ratio is; None where there are none."""
-    known = [math.log(1 + delta.percent / 100) for delta in found if delta.percent is not None]
-    return 100 * (math.exp(sum(known) / len(known)) - 1) if known else None
+    """The mean over sequences."""
+    return mean_percent(delta.percent for delta in found if delta.percent is not None)
 
 
 def at_error(rows, measure, error):
