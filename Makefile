@@ -16,8 +16,8 @@ test:           ## the fast tests of a development build
 	cmake --build build-dev
 	ctest --test-dir build-dev --output-on-failure -LE slow -j2
 
-fuzz:           ## every fuzz target for a minute, or FUZZ_SECONDS=...; then both decoders of what was found
-	tools/fuzz.sh $(or $(FUZZ_SECONDS),60)
+fuzz:           ## every fuzz target for a minute of the processor, or FUZZ_SECONDS=...; then both decoders of what was found; KEEP=1: into fuzz/ledger.csv
+	tools/fuzz.py $(or $(FUZZ_SECONDS),60) $(if $(KEEP),--keep)
 	reference/differential.py build-fuzz/golden_files build-fuzz/corpus/fuzz_reel
 
 tsan:           ## the tests whose names speak of threads, under the thread sanitizer
