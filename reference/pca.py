@@ -333,13 +333,7 @@ def coefficients(codec, contexts, surface, sizes):
 
 def frames_of(mean, B, C):
     """Positions [F, W, 3] in float64: (8.2), one product added after the other."""
-    F = len(mean) // 3
-    mean, B, C = numpy.array(mean), numpy.array(B).reshape(len(B), -1), numpy.array(C).reshape(len(C), -1)
-    posed = numpy.empty((F, len(C), 3))
-    for axis in range(3):
-        for f in range(F):
-            row = numpy.full(len(C), mean[axis * F + f])
-            for k in range(len(B)):
-                row = row + B[k, axis * F + f] * C[:, k]
-            posed[f, :, axis] = row
-    return posed
+    posed = numpy.tile(numpy.array(mean)[:, None], len(C))
+    for row, of_vertices in zip(B, numpy.array(C).T):
+        posed = posed + numpy.array(row)[:, None] * of_vertices
+    return posed.reshape(3, -1, len(C)).transpose(1, 2, 0)

@@ -10,71 +10,62 @@ import pca
 ROUNDS, R2 = 8, 0.95 * 0.95
 
 
-def length(e):
-    return numpy.sqrt(e[:, 0] * e[:, 0] + e[:, 1] * e[:, 1] + e[:, 2] * e[:, 2])
-
-
 class Relaxation:
     def __init__(self, triangles, mean, B):
         pairs = {(min(a, b), max(a, b)) for t in triangles for a, b in zip(t, t[1:] + t[:1]) if a != b}
-        self.edges, self.mean, self.B, self.F = sorted(pairs), mean, B, len(mean) // 3
+        self.edges, self.mean, self.B, self.F = numpy.array(sorted(pairs), int).reshape(-1, 2), mean, B, len(mean) // 3
 
     def relax(self, C, noise):
         """C [W, K] afterwards; noise: the variance N."""
         decoded = self.frames(C)
         for assumed in (noise, 0.0):
             start = self.frames(C)
-            x = self.rounds(decoded, start, self.springs(start, noise, assumed))
-            C = self.moved(C, [a - b for a, b in zip(x, start)])
+            x = self.rounds(decoded, start, *self.springs(start, noise, assumed))
+            C = self.moved(C, x - start)
         return C
 
     def frames(self, C):
-        """[W] of positions [F, 3]"""
-        posed = pca.frames_of(self.mean, self.B, C)
-        return [posed[:, v] for v in range(posed.shape[1])]
+        """Positions [W, F, 3]."""
+        return pca.frames_of(self.mean, self.B, C).transpose(1, 0, 2)
+
+    def along(self, x):
+        """What edges are as vectors [E, F, 3], and their lengths [E, F]."""
+        e = x[self.edges[:, 0]] - x[self.edges[:, 1]]
+        return e, numpy.sqrt(e[..., 0] * e[..., 0] + e[..., 1] * e[..., 1] + e[..., 2] * e[..., 2])
+
+    def added(self, first, at_start, at_end):
+        """What edges give to their two ends, edge after edge, on top of `first`."""
+        total = numpy.array(first)
+        numpy.add.at(total, self.edges.reshape(-1), numpy.stack([at_start, at_end], 1).reshape(-1, *total.shape[1:]))
+        return total
 
     def springs(self, x, noise, assumed):
-        """[(i, j, w, L)]"""
-        found = []
-        for i, j in self.edges:
-            lengths = length(x[i] - x[j]).tolist()
-            a = b = 0.0
-            for one in lengths:
-                d = one - lengths[0]
-                a, b = a + d, b + d * d
-            s = max(0.0, b / self.F - (a / self.F) * (a / self.F))
-            w = min(10.0, 0.5 * noise / max(s - assumed, 1e-30))
-            found.append((i, j, w, lengths[0] + a / self.F))
-        return found
+        """(w [E], L [E])"""
+        lengths, a, b = self.along(x)[1], 0.0, 0.0
+        for d in (lengths - lengths[:, :1]).T:
+            a, b = a + d, b + d * d
+        s = numpy.fmax(0.0, b / self.F - (a / self.F) * (a / self.F))
+        return numpy.fmin(10.0, 0.5 * noise / numpy.fmax(s - assumed, 1e-30)), lengths[:, 0] + a / self.F
 
-    @staticmethod
-    def rounds(p, start, springs):
-        stiffness = [1.0] * len(p)
-        for i, j, w, _ in springs:
-            stiffness[i] += 2 * w
-            stiffness[j] += 2 * w
-        x = before = start
-        omega = 1.0
+    def rounds(self, p, start, w, L):
+        stiffness = self.added(numpy.ones(len(p)), 2 * w, 2 * w)
+        x, before, omega = start, start, 1.0
         for turn in range(ROUNDS):
             omega = (1.0, 2 / (2 - R2))[turn] if turn < 2 else 4 / (4 - R2 * omega)
-            g = [numpy.zeros_like(one) for one in x]
-            for i, j, w, L in springs:
-                e = x[i] - x[j]
-                there = length(e)
-                there[there == 0] = 1.0
-                pull = (w * (1 - L / there))[:, None] * e
-                g[i], g[j] = g[i] + pull, g[j] - pull
-            y = [xi - 1.8 / s * ((xi - pi) + gi) for xi, pi, gi, s in zip(x, p, g, stiffness)]
-            x, before = [b + omega * (yi - b) for yi, b in zip(y, before)], x
+            e, there = self.along(x)
+            there[there == 0] = 1.0
+            pull = (w[:, None] * (1 - L[:, None] / there))[..., None] * e
+            g = self.added(numpy.zeros_like(x), pull, -pull)
+            y = x - (1.8 / stiffness)[:, None, None] * ((x - p) + g)
+            x, before = before + omega * (y - before), x
         return x
 
     def moved(self, C, shift):
-        """C and what shift [W] of [F, 3] is in terms of B."""
-        C, B = numpy.array(C), numpy.array(self.B).reshape(len(self.B), -1)
+        """C and what shift [W, F, 3] is in terms of B."""
+        C, B = numpy.array(C), numpy.array(self.B)
         total = numpy.zeros_like(C)
         for first in range(0, self.F, 8):
             for axis in range(3):
                 for f in range(first, min(first + 8, self.F)):
-                    d = numpy.array([one[f, axis] for one in shift])
-                    total = total + d[:, None] * B[None, :, axis * self.F + f]
+                    total = total + shift[:, f, axis, None] * B[None, :, axis * self.F + f]
         return C + total
