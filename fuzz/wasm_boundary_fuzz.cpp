@@ -75,8 +75,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     if (size == 0) return 0;
     constexpr double memory = 64 << 20;
-    for (const std::uint32_t level : {0u, 1u}) {
-        Handle* const handle = reel_open(level, memory);
+    struct Wish {
+        std::uint32_t level;
+        int alone;
+    };
+    for (const Wish wish : {Wish{0, 0}, Wish{1, 0}, Wish{1, 1}}) {
+        Handle* const handle = reel_open(wish.level, wish.alone, memory);
         try {
             feed(handle, data, size);
         } catch (const Raised&) { // as JavaScript: the decoder is given up

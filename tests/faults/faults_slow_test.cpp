@@ -1,43 +1,26 @@
 /// The same of every golden file: some of the truncations and bits, all of the fields.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "tests/container/generated.h"
 #include "tests/faults/faults.h"
+#include "tests/faults/file.h"
 
 using namespace meshreel;
 
 namespace {
 
-std::vector<std::string> golden_names()
-{
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(std::string(MESHREEL_SOURCE_DIR) + "/tests/golden"))
-        if (entry.path().extension() == ".reel") names.push_back(entry.path().stem());
-    std::ranges::sort(names);
-    return names;
-}
+class EveryGoldenFile : public testing::TestWithParam<std::string> {};
 
-class EveryGoldenFile : public testing::TestWithParam<std::string> {
-protected:
-    Bytes file() const
-    {
-        const std::string text = text_of("tests/golden/" + GetParam() + ".reel");
-        return {text.begin(), text.end()};
-    }
-};
-
-INSTANTIATE_TEST_SUITE_P(Version1, EveryGoldenFile, testing::ValuesIn(golden_names()),
+INSTANTIATE_TEST_SUITE_P(Version1, EveryGoldenFile, testing::ValuesIn(faults::golden_names()),
                          [](const auto& row) { return row.param; });
 
 } // namespace
 
 TEST_P(EveryGoldenFile, SurvivesEveryKindOfFault)
 {
-    const Bytes reel = file();
+    const Bytes reel = faults::golden_file(GetParam());
     const std::size_t some = std::max<std::size_t>(7, reel.size() / 500),
                       few = std::max<std::size_t>(61, reel.size() / 60);
     faults::Tally all;

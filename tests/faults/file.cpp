@@ -3,6 +3,7 @@
 #include "tests/faults/file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,8 @@
 namespace meshreel::faults {
 
 namespace {
+
+constexpr const char* golden_folder = MESHREEL_SOURCE_DIR "/tests/golden";
 
 void put_number(Bytes& bytes, std::uint64_t number, int size)
 {
@@ -107,6 +110,20 @@ std::vector<Field> fields_of(ByteView file)
         if (field.begin + field.size <= parts[field.part].payload.size()) fields.push_back(field);
     }
     return fields;
+}
+
+std::vector<std::string> golden_names()
+{
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(golden_folder))
+        if (entry.path().extension() == ".reel") names.push_back(entry.path().stem());
+    std::ranges::sort(names);
+    return names;
+}
+
+Bytes golden_file(const std::string& name)
+{
+    return *read_file(std::string(golden_folder) + "/" + name + ".reel");
 }
 
 Bytes small_file(const std::string& codec)

@@ -30,6 +30,10 @@ struct Field {
 };
 std::vector<Field> fields_of(ByteView file);
 
+/// The files of tests/golden, by name, and one of them.
+std::vector<std::string> golden_names();
+Bytes golden_file(const std::string& name);
+
 /// A file of a codec, of few vertices, with everything that a file can hold.
 Bytes small_file(const std::string& codec);
 

@@ -8,6 +8,7 @@
 #include "meshreel/codecs/codec.h"
 #include "meshreel/mesh/test_shapes.h"
 #include "meshreel/meshreel.h"
+#include "meshreel/player/player.h"
 #include "tests/faults/file.h"
 #include "tests/faults/memory.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::size_t a_little = 64 << 10;
 
-/// Bytes beyond the file that decoding it, or looking into it, takes at most.
+/// Bytes beyond the file that decoding it, posing it or looking into it takes at most.
 std::size_t taken(ByteView file)
 {
     const std::size_t before = faults::held();
@@ -27,8 +28,60 @@ std::size_t taken(ByteView file)
     (void)decode(file, options).ok();
     MemorySource source(file);
     (void)decode(source, options).ok();
+    (void)open_frames(source, options).ok();
+    (void)player::Player::open(file, {.threads = {1}}).ok();
+    (void)levels(file, options).ok();
     (void)explain(file).ok();
     return faults::peak() - before;
+}
+
+/// Whether `info`, which takes little itself, warns of a file.
+bool is_warned_of(ByteView file)
+{
+    const auto what = info(file);
+    return what.ok() && !what->warnings.empty();
+}
+
+/// The field as the largest number that so many bytes hold, and as the one below.
+std::vector<Bytes> largest_values(std::size_t size)
+{
+    std::vector<Bytes> all;
+    for (const std::uint8_t first : Bytes{0xff, 0xfe}) {
+        Bytes value(size, 0xff);
+        value.front() = first;
+        value.back() &= 0x7f; // as a varint it ends there
+        all.push_back(value);
+    }
+    return all;
+}
+
+/// How many files of 100 bytes were tried, and what one of them took.
+struct Taken {
+    std::size_t tried = 0, most = 0;
+
+    void look_at(Bytes file)
+    {
+        file.resize(100);
+        ++tried;
+        if (!is_warned_of(file)) most = std::max(most, taken(file));
+    }
+};
+
+/// All parts that fit into 100 bytes, the head first, with a field of one of them at its largest.
+void with_large_fields(const Bytes& file, Taken& sum)
+{
+    const std::vector<faults::Part> parts = faults::parts_of(file);
+    for (const faults::Field& field : faults::fields_of(file)) {
+        if (field.size > 10) continue;
+        for (const Bytes& value : largest_values(field.size)) {
+            std::vector<faults::Part> some = {parts[0]};
+            if (field.part > 0) some.push_back(parts[field.part]);
+            std::copy(value.begin(), value.end(),
+                      some.back().payload.begin() + static_cast<std::ptrdiff_t>(field.begin));
+            sum.look_at(faults::sealed(some));
+            sum.look_at(faults::indexed(some));
+        }
+    }
 }
 
 /// One triangle, or as many points, that stand still.
@@ -58,10 +111,10 @@ Bytes file_of(const Animation& a, const std::string& codec = "reel")
 
 } // namespace
 
-TEST(SmallFile, OfAHundredBytesTakesLittleWhateverItSays)
+TEST(SmallFile, OfAHundredBytesTakesAtMost64KbMoreUnlessInfoWarns)
 {
     std::mt19937 random(7);
-    std::size_t tried = 0, most = 0;
+    Taken sum;
     for (const codecs::Codec& codec : codecs::all()) {
         const std::vector<faults::Part> parts = faults::parts_of(faults::small_file(std::string(codec.name)));
         for (int i = 0; i < 3000; ++i) {
@@ -73,14 +126,24 @@ TEST(SmallFile, OfAHundredBytesTakesLittleWhateverItSays)
                 if (!part.payload.empty())
                     part.payload[random() % part.payload.size()] = static_cast<std::uint8_t>(random());
             }
-            Bytes file = i % 2 == 0 ? faults::sealed(some) : faults::indexed(some);
-            file.resize(100);
-            most = std::max(most, taken(file));
-            ++tried;
+            sum.look_at(i % 2 == 0 ? faults::sealed(some) : faults::indexed(some));
         }
     }
-    EXPECT_LE(most, a_little);
-    std::printf("%zu files of 100 bytes tried; at most %zu bytes beyond their size\n", tried, most);
+    EXPECT_LE(sum.most, a_little);
+    std::printf("%zu files of 100 bytes tried; at most %zu bytes beyond their size\n", sum.tried, sum.most);
+}
+
+TEST(SmallFile, WithTheHeadOfAnyGoldenFileAndAnyFieldAtItsLargestTakesAtMost64KbMoreUnlessInfoWarns)
+{
+    Taken sum;
+    for (const std::string& name : faults::golden_names()) {
+        const Bytes file = faults::golden_file(name);
+        sum.look_at(file);
+        with_large_fields(file, sum);
+    }
+    EXPECT_GT(sum.tried, 1000u);
+    EXPECT_LE(sum.most, a_little);
+    std::printf("%zu files of 100 bytes tried; at most %zu bytes beyond their size\n", sum.tried, sum.most);
 }
 
 TEST(SmallFile, ThatIsValidIsLongerThanAHundredBytes)

@@ -110,7 +110,7 @@ TEST_F(OutOfMemory, ADecoderGivesAnError)
 TEST_F(OutOfMemory, ADecoderOfPartsAndLevelsGivesAnError)
 {
     const Bytes file = faults::small_file("reel");
-    const Bytes levels = *read_file(std::string(MESHREEL_SOURCE_DIR) + "/tests/golden/reel_v1_levels_cloth.reel");
+    const Bytes levels = faults::golden_file("reel_v1_levels_cloth");
     run_out(
         "decode a level of parts",
         [&] {

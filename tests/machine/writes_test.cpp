@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "meshreel/io/io.h"
+#include "meshreel/meshreel.h"
 #include "tests/machine/calls.h"
 #include "tests/machine/folder.h"
 
@@ -14,14 +15,18 @@ namespace {
 
 class Disk : public FolderTest, public testing::WithParamInterface<const char*> {
 protected:
+    /// As the command does it: .reel files by their bytes, "frames.*" frame by frame.
     Status save() const
     {
         const std::string name = GetParam();
-        const bool many = name.find('#') != std::string::npos;
+        const bool still = name == "a.obj" || name == "a.ply" || name == "a.off";
+        const Animation animation = small_animation(still ? 1 : 3);
+        if (name == "a.reel") return write_file(path(name), encode(animation)->bytes, true);
         io::SaveOptions options;
         options.overwrite = true;
-        const bool moves = many || name == "a.pc2" || name == "a.mdd" || name == "a.glb" || name == "a.gltf";
-        return io::save(small_animation(moves ? 3 : 1), path(name), options);
+        if (!name.starts_with("frames.")) return io::save(animation, path(name), options);
+        HeldFrames frames(animation);
+        return (*io::format_of(name))->save_frames(frames, path(name), options);
     }
 
     /// One fault after the other, over what `before` says.
@@ -87,7 +92,7 @@ private:
 
 INSTANTIATE_TEST_SUITE_P(Format, Disk,
                          testing::Values("a.obj", "a.###.obj", "a.ply", "a.###.ply", "a.off", "a.pc2", "a.mdd", "a.glb",
-                                         "a.gltf"),
+                                         "a.gltf", "frames.pc2", "frames.mdd", "a.reel"),
                          [](const auto& row) {
                              std::string name = row.param;
                              for (char& c : name)
