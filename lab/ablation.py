@@ -1,19 +1,23 @@
 #!/usr/bin/python3
 """What each idea of the default codec is worth: builds the command without one idea at a time, and runs them all beside it.
 
-An idea is a patch of lab/ablation that takes it out; its first lines say what it is and what stands in its place. Renews
-lab/results/ablation.csv and docs/figures/ablation.svg; lab/tables.py makes the tables of docs/ablation.md of them."""
+An idea is a patch of lab/ablation that takes it out; its first lines say what it is and what stands in its place. Renews in
+lab/results/ablation.csv what it measures, and docs/figures/ablation.svg; lab/tables.py makes the tables of docs/ablation.md of them."""
 # SPDX-License-Identifier: MIT
 import argparse
+import dataclasses
 import os
 import shutil
 import subprocess
 import sys
+from collections import Counter
 
 import bench
 import codings
 import ideas
 import plan
+import provenance
+import releases
 from options import ROOT, declare
 from section import write_csv
 
@@ -24,6 +28,8 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--plan", default=os.path.join(ROOT, "lab/plans/ablation.toml"))
     declare(parser, "build", "data", "cache")
+    parser.add_argument("--only", help="sequences, by comma; results of the others stay")
+    parser.add_argument("--ideas", help="likewise")
     parser.add_argument("--jobs", default="2", help="of the compiler (default: 2)")
     bench.declare_fresh(parser)
     return parser.parse_args()
@@ -75,12 +81,31 @@ def build_all(curves, options):
             workshop.make(known[coding.name], os.path.join(ROOT, coding.build))
 
 
+def wanted(whole, options):
+    """The plan, less what the options leave out."""
+    names = [ideas.WHOLE, *bench.chosen(options.ideas, ideas.read(), "idea")]
+    sequences = {name: whole.sequences[name] for name in bench.chosen(options.only, whole.sequences, "sequence")}
+    return dataclasses.replace(whole, sequences=sequences, codings=tuple(coding for coding in whole.codings if coding.name in names))
+
+
+def keep(new, whole, lines):
+    """Into lab/results, in the plan's order, with what earlier runs measured."""
+    commit, names = provenance.commit(ROOT), [coding.name for coding in whole.codings]
+    rows = ideas.renewed(releases.read("ablation"), [{**row, "commit": commit} for row in new])
+    rows = [row for row in rows if row["sequence"] in whole.sequences and row["coding"] in names]
+    rows.sort(key=lambda row: (list(whole.sequences).index(row["sequence"]), names.index(row["coding"]), row["commit"] != commit))
+    earlier = Counter(row["commit"] for row in rows if row["commit"] != commit)
+    lines = [*lines, *(f"{count} files of commit {name}" for name, count in earlier.items())]
+    write_csv(os.path.join(releases.RESULTS, "ablation.csv"), rows, bench.head_of(whole, lines))
+
+
 def main():
     options = arguments()
-    curves = plan.curves_of(plan.read(options.plan), "ablation")
+    whole = plan.curves_of(plan.read(options.plan), "ablation")
+    curves = wanted(whole, options)
     build_all(curves, options)
     race, codecs = bench.raced(options, curves)
-    write_csv(os.path.join(ROOT, "lab/results/ablation.csv"), race.outcome.rows, bench.head_of(curves, bench.made_by(options, race, codecs)))
+    keep(race.outcome.rows, whole, bench.made_by(options, race, codecs))
     return subprocess.call([sys.executable, os.path.join(ROOT, "lab/ideas.py")])
 
 

@@ -48,14 +48,20 @@ def some(points, count):
     return tuple(points[round(i * (len(points) - 1) / max(count - 1, 1))] for i in range(count))
 
 
+def chosen(words, known, what):
+    """Names by comma, all of which there are; all that there are where there are no words."""
+    names = words.split(",") if words else list(known)
+    if unknown := set(names) - set(known):
+        raise plan.PlanError(f"no such {what}: {', '.join(sorted(unknown))}")
+    return names
+
+
 def wanted(options):
     """The plan, less what the options leave out."""
     name = os.path.splitext(os.path.basename(options.plan))[0]
     whole = plan.curves_of(plan.read(options.plan), name, codings.peers_here())
-    only = options.only.split(",") if options.only else list(whole.sequences)
-    if unknown := set(only) - set(whole.sequences):
-        raise plan.PlanError(f"no such sequence: {', '.join(sorted(unknown))}")
-    return dataclasses.replace(whole, runs=options.runs or whole.runs, sequences={name: whole.sequences[name] for name in only},
+    sequences = {name: whole.sequences[name] for name in chosen(options.only, whole.sequences, "sequence")}
+    return dataclasses.replace(whole, runs=options.runs or whole.runs, sequences=sequences,
                                codings=tuple(dataclasses.replace(coding, points=some(coding.points, options.points))
                                              for coding in whole.codings))
 

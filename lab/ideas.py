@@ -42,13 +42,26 @@ def touched(idea):
         return re.findall(r"^\+\+\+ b/(.+)$", file.read(), re.M)
 
 
-def wholes(rows):
-    """{sequence: the rows of the whole codec there}."""
+def renewed(old, new):
+    """What was measured now, and what of earlier runs it does not replace, with the whole codec of the commit that it is of."""
+    measured = {(row["sequence"], row["coding"]) for row in new}
+    kept = [row for row in old if row["coding"] != WHOLE and (row["sequence"], row["coding"]) not in measured]
+    needed = {whole_of(row) for row in kept} - {whole_of(row) for row in new}
+    return [*new, *kept, *(row for row in old if row["coding"] == WHOLE and whole_of(row) in needed)]
+
+
+def whole_of(row):
+    """What tells the whole codec's rows that a row is held against."""
+    return row["sequence"], row["commit"]
+
+
+def by_whole(rows):
+    """[(an idea's row, the whole codec's rows of the same sequence and commit)], where there are any."""
     found = {}
     for row in rows:
         if row["coding"] == WHOLE:
-            found.setdefault(row["sequence"], []).append(row)
-    return found
+            found.setdefault(whole_of(row), []).append(row)
+    return [(row, found[whole_of(row)]) for row in rows if row["coding"] != WHOLE and whole_of(row) in found]
 
 
 def rate_at(curve, measure, error):
@@ -61,16 +74,13 @@ def rate_at(curve, measure, error):
 
 def worth(rows, measure):
     """{(sequence, idea): percent that its file is larger without it than the whole codec's of the same error}."""
-    whole = wholes(rows)
-    return {(row["sequence"], row["coding"]): 100 * (row["bpfv"] / rate_at(whole[row["sequence"]], measure, row[measure]) - 1)
-            for row in rows if row["coding"] != WHOLE and row["sequence"] in whole}
+    return {(row["sequence"], row["coding"]): 100 * (row["bpfv"] / rate_at(whole, measure, row[measure]) - 1) for row, whole in by_whole(rows)}
 
 
 def times(rows, which):
     """{(sequence, idea): percent that encoding or decoding takes longer without it}, of files of the same setting."""
-    whole = {(sequence, row["setting"]): row for sequence, found in wholes(rows).items() for row in found}
-    return {(row["sequence"], row["coding"]): 100 * (row[which] / whole[row["sequence"], row["setting"]][which] - 1)
-            for row in rows if row["coding"] != WHOLE and (row["sequence"], row["setting"]) in whole}
+    return {(row["sequence"], row["coding"]): 100 * (row[which] / same[which] - 1)
+            for row, whole in by_whole(rows) for same in whole if same["setting"] == row["setting"]}
 
 
 def mean(found, coding):

@@ -204,7 +204,7 @@ def made_by(name):
     """What the head of a plan's CSV file says, as one paragraph."""
     with open(os.path.join(releases.RESULTS, name + ".csv"), encoding="utf-8") as file:
         words = [line.removeprefix("#").strip() for line in file if line.startswith("#")]
-    told = lambda line: line.split(" ")[0] in ("plan", "commit", "compiler", "machine", "load") or " files by meshreel " in line
+    told = lambda line: line.split(" ")[0] in ("plan", "commit", "compiler", "machine", "load") or " files by meshreel " in line or " files of commit " in line
     return ["Made by: " + "; ".join(filter(told, words)) + "."]
 
 

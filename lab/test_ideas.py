@@ -13,7 +13,7 @@ PLAN = os.path.join(releases.ROOT, "lab/plans/ablation.toml")
 
 
 def file(coding, setting, kg, bpfv, seconds=1.0):
-    return {"sequence": "cow", "coding": coding, "setting": setting, "kg": kg, "bpfv": bpfv, "encode_s": seconds}
+    return {"sequence": "cow", "coding": coding, "setting": setting, "kg": kg, "bpfv": bpfv, "encode_s": seconds, "commit": "c"}
 
 
 WHOLE = [file("reel", "kg 0.5", 0.5, 1.0), file("reel", "kg 0.1", 0.1, 4.0)]
@@ -47,6 +47,17 @@ class Worth(unittest.TestCase):
 
     def test_times_are_of_files_of_the_same_setting(self):
         self.assertAlmostEqual(ideas.times([*WHOLE, file("x", "kg 0.5", 0.5, 1.0, 3.0)], "encode_s")["cow", "x"], 200)
+
+    def test_a_file_is_held_against_the_whole_codec_of_its_own_commit(self):
+        later = [{**row, "commit": "d", "bpfv": 0.5 * row["bpfv"]} for row in WHOLE]
+        self.assertAlmostEqual(ideas.worth([*WHOLE, *later, {**later[0], "coding": "x"}], "kg")["cow", "x"], 0, 12)
+
+    def test_what_is_measured_now_takes_the_place_of_what_was_and_nothing_else_does(self):
+        old = [*WHOLE, file("x", "kg 0.2", 0.2, 2.0), file("y", "kg 0.2", 0.2, 3.0)]
+        again = [{**row, "commit": "d"} for row in [*WHOLE, old[2]]]
+        self.assertEqual(ideas.renewed(old, again), [*again, old[3], *WHOLE])
+        self.assertEqual(ideas.renewed(old, [*again, {**old[3], "commit": "d"}]), [*again, {**old[3], "commit": "d"}])
+        self.assertEqual(ideas.renewed(old, old[:3]), [*old[:3], old[3]])  # of the same commit
 
     def test_what_is_worth_little_is_told_with_where_it_is_worth_most(self):
         rows = [{**row, "coding": coding, "sequence": sequence, "bpfv": row["bpfv"] * factor} for row in WHOLE for coding, sequence, factor in
