@@ -6,7 +6,13 @@ import { mixedRows } from './mix.js';
 import { clipData, headOf, tableWidth } from './tables.js';
 import { Timeline } from './timeline.js';
 
-const names = { normal: null, tangent: 'tangent', uv0: 'uv', uv1: 'uv1', uv2: 'uv2', uv3: 'uv3', color0: 'color' };
+// What three.js calls them, and of how many components they must be.
+const known = { normal: [null, 3], tangent: ['tangent', 4], uv0: ['uv', 2], uv1: ['uv1', 2], uv2: ['uv2', 2], uv3: ['uv3', 2], color0: ['color', 3, 4] };
+
+function nameOf({ name, components }) {
+  const [theirs, ...counts] = known[name] ?? [];
+  return counts.includes(components) ? theirs : `reel_${name.replace(/\W/g, '_')}`;
+}
 
 /// Texels of four numbers as a texture of a width.
 export function texture(values, width = tableWidth) {
@@ -21,9 +27,9 @@ function geometryOf({ index, groups, attributes, position, normal, reelRow }, { 
   geometry.setAttribute('position', new BufferAttribute(position, 3));
   geometry.setAttribute('normal', new BufferAttribute(normal, 3));
   geometry.setAttribute('reelRow', new BufferAttribute(reelRow, 2));
-  for (const { name, components, normalized, values } of attributes) {
-    const known = name in names ? names[name] : `reel_${name.replace(/\W/g, '_')}`;
-    if (known && components <= 4) geometry.setAttribute(known, new BufferAttribute(values, components, normalized));
+  for (const attribute of attributes) {
+    const name = nameOf(attribute), { components, normalized, values } = attribute;
+    if (name && components <= 4) geometry.setAttribute(name, new BufferAttribute(values, components, normalized));
   }
   for (const { start, count, material } of groups) geometry.addGroup(start, count, material);
   const box = new Box3(new Vector3(...min), new Vector3(...max));
@@ -79,4 +85,13 @@ export class ReelClip {
     for (const each of Object.values(this.textures)) each.dispose();
     this.geometry.dispose();
   }
+}
+
+/// A triangle of no size: it is drawn, so that what draws it is ready, and not seen.
+export function emptyClip() {
+  const surface = { triangles: Uint32Array.of(0, 1, 2), rowOf: Uint32Array.of(0, 1, 2), attributes: [] };
+  const head = { vertexCount: 3, codedVertexCount: 3, triangleCount: 1, frameCount: 1, loop: false, fps: 0, times: Float64Array.of(0), materials: [], surface };
+  const clip = new ReelClip(head, [{ firstFrame: 0, frameCount: 1, K: 1, mean: new Float64Array(3), basis: new Float64Array(3), coefficients: new Float32Array(3), surface: null }]);
+  clip.geometry.boundingSphere.radius = Infinity; // wherever the camera looks
+  return clip;
 }

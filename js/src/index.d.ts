@@ -1,4 +1,4 @@
-/// Types of meshreel for three.js.
+/// Types of meshreel and meshreel/webgpu for three.js.
 // SPDX-License-Identifier: MIT
 import type {
   AnimationActionLoopStyles, BufferGeometry, EventDispatcher, InstancedMesh, Loader, LoadingManager, Material, Mesh, MeshStandardMaterial,
@@ -48,7 +48,8 @@ interface Worn {
 }
 
 export declare class ReelMesh extends Mesh<BufferGeometry, Material | Material[]> implements Worn {
-  constructor(clip: ReelClip, material?: Material | Material[]);
+  /** Without a clip nothing is to be seen until change(). */
+  constructor(clip?: ReelClip | null, material?: Material | Material[]);
   readonly isReelMesh: true;
   readonly clip: ReelClip;
   readonly player: ReelPlayer;

@@ -8,6 +8,8 @@ import { ReelError, decoderModule, disposeDecoder } from './decode.js';
 import { ReelMesh } from './reel.js';
 
 export class ReelLoader extends Loader {
+  static Mesh = ReelMesh;
+
   constructor(manager) {
     super(manager);
     this.all = false; ///< whether files of every codec are read
@@ -49,13 +51,17 @@ export class ReelLoader extends Loader {
     const onEvent = ({ type, piece }) => type === 'segment' && onProgress?.({ frames: piece.firstFrame + piece.frameCount });
     this.#fetched(address)
       .then((response) => this.loadClip(response, { onEvent }))
-      .then((clip) => onLoad?.(new ReelMesh(clip)))
+      .then((clip) => onLoad?.(this.#mesh(clip)))
       .catch((error) => {
         if (onError) onError(error);
         else console.error(error);
         this.manager.itemError(address);
       })
       .finally(() => this.manager.itemEnd(address));
+  }
+
+  #mesh(clip) {
+    return new this.constructor.Mesh(clip);
   }
 
   async #fetched(address) {
@@ -67,7 +73,7 @@ export class ReelLoader extends Loader {
 
   /// The mesh in an ArrayBuffer; also by callback, as other loaders do.
   parse(buffer, onLoad, onError) {
-    const mesh = this.loadClip(buffer).then((clip) => new ReelMesh(clip));
+    const mesh = this.loadClip(buffer).then((clip) => this.#mesh(clip));
     if (onLoad || onError) mesh.then(onLoad, onError ?? console.error);
     return mesh;
   }

@@ -1,46 +1,11 @@
 /// A reel in three.js: meshes and crowds that wear any material and play a clip.
 // SPDX-License-Identifier: MIT
-import {
-  BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedMesh, Mesh, MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking,
-  Vector2, Vector4,
-} from 'three';
+import { BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedMesh, Mesh, MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking } from 'three';
 
-import { texture } from './clip.js';
-import { mixedBasis } from './mix.js';
+import { emptyClip } from './clip.js';
 import { ReelPlayer } from './player.js';
-import { reelVertexShader } from './shader.js';
 import { gatherRows } from './tables.js';
-
-/// Materials of one object, each made to take its vertices from the clip.
-class Wardrobe {
-  constructor(clip, crowd) {
-    this.crowd = crowd;
-    this.uniforms = { reelRows: { value: clip.rows } };
-    for (const [name, value] of Object.entries(clip.textures)) this.uniforms[name] = { value };
-    if (crowd) {
-      const { timeline } = clip;
-      Object.assign(this.uniforms, { reelTime: { value: 0 }, reelPeriod: { value: timeline.period },
-        reelDuration: { value: timeline.duration }, reelFrameCount: { value: timeline.times.length } });
-    } else {
-      Object.assign(this.uniforms, { reelFrame: { value: new Vector4() }, reelWeight: { value: new Vector4(1, 0, 0, 0) },
-        reelBlend: { value: null }, reelBlended: { value: new Vector2() } });
-    }
-  }
-
-  /// A clone of a material, or of each of several, that this object alone wears.
-  wear(material) {
-    if (Array.isArray(material)) return material.map((each) => this.wear(each));
-    const worn = material.clone(), before = material.onBeforeCompile, key = material.customProgramCacheKey;
-    if (this.crowd) worn.defines = { ...worn.defines, REEL_CROWD: 1 };
-    worn.onBeforeCompile = (shader, renderer) => {
-      before.call(worn, shader, renderer);
-      Object.assign(shader.uniforms, this.uniforms);
-      shader.vertexShader = reelVertexShader(shader.vertexShader);
-    };
-    worn.customProgramCacheKey = () => `reel ${this.crowd} ${key.call(material)}`;
-    return worn;
-  }
-}
+import { Wardrobe } from './wardrobe.js';
 
 /// The vertices shown at a time, as a geometry that rays can meet.
 function posed(clip, time) {
@@ -54,9 +19,9 @@ function posed(clip, time) {
 
 /// Gives an object its wardrobe, its shadows' materials, and its player.
 function furnish(mesh, clip, material, crowd) {
-  const wardrobe = new Wardrobe(clip, crowd);
+  const wardrobe = new mesh.constructor.Wardrobe(clip, crowd);
   mesh.clip = clip;
-  mesh.uniforms = wardrobe.uniforms;
+  mesh.wardrobe = wardrobe;
   mesh.wear = (next) => {
     for (const each of [mesh.material].flat()) each.dispose();
     mesh.material = wardrobe.wear(next);
@@ -70,50 +35,52 @@ function furnish(mesh, clip, material, crowd) {
 
 function undress(mesh) {
   for (const each of [mesh.material, mesh.customDepthMaterial, mesh.customDistanceMaterial].flat()) each.dispose();
+  mesh.wardrobe.dispose();
 }
 
-/// One mesh playing a clip. material: any of three.js, or several; it wears clones (mesh.material). dispose() frees those, not
-/// the clip, which others may share.
+/// One mesh playing a clip. material: any of three.js, or several; it wears clones (mesh.material); without any, the clip's own.
+/// Without a clip nothing is to be seen until change(), but what is drawn before makes the shaders ready. dispose() frees the
+/// materials, not the clip, which others may share.
 export class ReelMesh extends Mesh {
+  static Wardrobe = Wardrobe;
+  #waiting = null;
+  #plain = false; // it wears the clip's own materials
+  #posed = null;
+
   constructor(clip, material) {
-    super(clip.geometry, []);
+    const waiting = clip ? null : emptyClip();
+    super((clip ?? waiting).geometry, []);
     this.isReelMesh = true;
-    furnish(this, clip, material, false);
+    this.#waiting = waiting;
+    this.#plain = !material;
+    furnish(this, clip ?? waiting, material, false);
     const frames = new Int32Array(4), weights = new Float64Array(4);
-    this.player = new ReelPlayer(clip.timeline, (time) => {
+    this.player = new ReelPlayer(this.clip.timeline, (time) => {
       const { timeline } = this.clip;
       timeline.mix(timeline.start + time, frames, weights);
-      this.uniforms.reelFrame.value.fromArray(frames);
-      this.uniforms.reelWeight.value.fromArray(weights);
-      this.#blend(frames, weights);
+      this.wardrobe.show(this.clip, frames, weights);
     });
-    this.#makeBlend();
     this.player.seek(0);
   }
 
-  /// Within a segment the basis is mixed here, once, instead of for each vertex: 3 K + 4 numbers go to the card.
-  #blend(frames, weights) {
-    const { reelBlend, reelBlended } = this.uniforms, { image } = reelBlend.value, { tables } = this.clip;
-    const begin = mixedBasis(tables, frames, weights, image.data);
-    reelBlended.value.set(begin, begin < 0 ? 0 : tables.frames[8 * frames[weights.findIndex((weight) => weight !== 0)] + 1]);
-    if (begin >= 0) reelBlend.value.needsUpdate = true;
-  }
-  #makeBlend() {
-    const { reelBlend } = this.uniforms, width = this.clip.blendWidth;
-    reelBlend.value?.dispose();
-    reelBlend.value = texture(new Float32Array(4 * width), width);
-  }
-
-  /// Shows another clip from now on, of a surface with as many materials: more segments of the same file, or another level.
+  /// Shows another clip from now on: more segments of the same file, another level; or one of a surface with as many materials.
   change(clip) {
     this.clip = clip;
     this.geometry = clip.geometry;
-    this.uniforms.reelRows.value = clip.rows;
-    for (const [name, value] of Object.entries(clip.textures)) this.uniforms[name].value = value;
-    this.#makeBlend();
+    this.wardrobe.change(clip);
+    if (this.#waiting) this.#begin(clip);
     this.player.duration = clip.timeline.duration;
     this.player.seek(this.player.time);
     return this;
+  }
+
+  /// What the material that it wears already is good for stays.
+  #begin(clip) {
+    const own = this.#plain ? clip.materials() : [];
+    if (own.vertexColors || own.length > 0) this.wear(own);
+    else if (this.#plain) this.material.name = own.name;
+    this.#waiting.dispose();
+    this.#waiting = null;
   }
 
   /// Rays meet what is shown.
@@ -125,23 +92,24 @@ export class ReelMesh extends Mesh {
     shown.raycast(raycaster, hits);
     for (const hit of hits) found.push({ ...hit, object: this });
   }
-  #posed = null;
 
   dispose() {
     undress(this);
-    this.uniforms.reelBlend.value.dispose();
+    this.#waiting?.dispose();
   }
 }
 
 /// Many instances of a clip, each at its own phase, in one draw call. setMatrixAt() places them.
 export class ReelCrowd extends InstancedMesh {
+  static Wardrobe = Wardrobe;
+
   constructor(clip, material, count) {
     const geometry = clip.geometry.clone();
     geometry.setAttribute('reelPhase', new InstancedBufferAttribute(new Float32Array(count), 1));
     super(geometry, [], count);
     this.isReelCrowd = true;
     furnish(this, clip, material, true);
-    this.player = new ReelPlayer(clip.timeline, (time) => (this.uniforms.reelTime.value = time));
+    this.player = new ReelPlayer(clip.timeline, (time) => (this.wardrobe.uniforms.reelTime.value = time));
   }
 
   /// Seconds by which instance i is ahead.

@@ -1,4 +1,4 @@
-/// What is put into a material's vertex shader: positions and normals out of the tables of clip.js.
+/// What is put into a material's vertex shader: positions and normals out of the tables of tables.js.
 // SPDX-License-Identifier: MIT
 
 const declarations = /* glsl */ `
@@ -16,6 +16,9 @@ attribute vec2 reelRow; // of positions, of tangents
   uniform ivec2 reelBlended; // where its coefficients begin, K / 4; 0: it is of several segments, to be mixed from the frames
 #endif
 
+#ifndef REEL_CROWD
+  vec4 reelMixed( int i ) { return texelFetch( reelBlend, ivec2( i, 0 ), 0 ); }
+#endif
 vec4 reelTexel( highp sampler2D table, int i ) { return texelFetch( table, ivec2( i & 2047, i >> 11 ), 0 ); }
 
 struct ReelMix { ivec4 frame; vec4 weight; };
@@ -68,48 +71,67 @@ struct ReelMix { ivec4 frame; vec4 weight; };
   ReelMix reelNow() { return ReelMix( reelFrame, reelWeight ); }
 #endif
 
-// layer 0: the position; 1, 2: the tangents
-int reelRowOf( int layer ) { return layer == 0 ? int( reelRow.x ) : reelRows + 2 * int( reelRow.y ) + layer - 1; }
+// Rows of the coefficients: of the position, of the two tangents.
+ivec3 reelRowsOf() {
+  int tangents = reelRows + 2 * int( reelRow.y );
+  return ivec3( int( reelRow.x ), tangents, tangents + 1 );
+}
+vec3 reelDots( vec4 c, vec4 x, vec4 y, vec4 z ) { return vec3( dot( c, x ), dot( c, y ), dot( c, z ) ); }
 
-vec3 reelSum( ReelMix now, int layer ) {
-  vec3 sum = vec3( 0.0 );
+// The position in the first column; with tangents, those in the others.
+void reelAddFour( inout mat3 sums, ivec3 at, vec4 x, vec4 y, vec4 z, bool tangents ) {
+  sums[ 0 ] += reelDots( reelTexel( reelCoefficients, at.x ), x, y, z );
+  if ( ! tangents ) return;
+  sums[ 1 ] += reelDots( reelTexel( reelCoefficients, at.y ), x, y, z );
+  sums[ 2 ] += reelDots( reelTexel( reelCoefficients, at.z ), x, y, z );
+}
+
+mat3 reelPose( bool tangents ) {
+  mat3 sums = mat3( 0.0 );
+  ivec3 rows = reelRowsOf();
   #ifndef REEL_CROWD
     if ( reelBlended.y > 0 ) {
-      int at = reelBlended.x + reelRowOf( layer ) * reelBlended.y;
-      if ( layer == 0 ) sum = texelFetch( reelBlend, ivec2( 0 ), 0 ).xyz;
-      for ( int k = 0; k < reelBlended.y; ++ k ) {
-        vec4 c = reelTexel( reelCoefficients, at + k );
-        sum += vec3( dot( c, texelFetch( reelBlend, ivec2( 3 * k + 1, 0 ), 0 ) ), dot( c, texelFetch( reelBlend, ivec2( 3 * k + 2, 0 ), 0 ) ),
-          dot( c, texelFetch( reelBlend, ivec2( 3 * k + 3, 0 ), 0 ) ) );
-      }
-      return sum;
+      ivec3 at = reelBlended.x + rows * reelBlended.y;
+      sums[ 0 ] = reelMixed( 0 ).xyz;
+      for ( int k = 0; k < reelBlended.y; ++ k )
+        reelAddFour( sums, at + k, reelMixed( 3 * k + 1 ), reelMixed( 3 * k + 2 ), reelMixed( 3 * k + 3 ), tangents );
+      return sums;
     }
   #endif
+  ReelMix now = reelNow();
   for ( int n = 0; n < 4; ++ n ) {
     float weight = now.weight[ n ];
     if ( weight == 0.0 ) continue;
     vec4 head = reelTexel( reelFrames, 2 * now.frame[ n ] );
     int fours = int( head.y ), basis = int( head.z );
-    int at = int( head.x ) + ( int( head.w ) << 20 ) + reelRowOf( layer ) * fours;
-    vec3 part = layer == 0 ? reelTexel( reelFrames, 2 * now.frame[ n ] + 1 ).xyz : vec3( 0.0 );
-    for ( int k = 0; k < fours; ++ k ) {
-      vec4 c = reelTexel( reelCoefficients, at + k );
-      part += vec3( dot( c, reelTexel( reelBasis, basis + 3 * k ) ), dot( c, reelTexel( reelBasis, basis + 3 * k + 1 ) ),
-        dot( c, reelTexel( reelBasis, basis + 3 * k + 2 ) ) );
-    }
-    sum += weight * part;
+    ivec3 at = int( head.x ) + ( int( head.w ) << 20 ) + rows * fours;
+    mat3 part = mat3( 0.0 );
+    part[ 0 ] = reelTexel( reelFrames, 2 * now.frame[ n ] + 1 ).xyz;
+    for ( int k = 0; k < fours; ++ k )
+      reelAddFour( part, at + k, reelTexel( reelBasis, basis + 3 * k ), reelTexel( reelBasis, basis + 3 * k + 1 ),
+        reelTexel( reelBasis, basis + 3 * k + 2 ), tangents );
+    sums += weight * part;
   }
-  return sum;
+  return sums;
 }
 `;
 
 const normals = /* glsl */ `
-vec3 reelTangent = reelSum( reelNow(), 1 );
-vec3 reelAcross = cross( reelTangent, reelSum( reelNow(), 2 ) );
+#define REEL_POSED
+mat3 reelPosed = reelPose( true );
+vec3 reelAcross = cross( reelPosed[ 1 ], reelPosed[ 2 ] );
 float reelArea = length( reelAcross );
 vec3 objectNormal = reelArea > 1e-12 ? reelAcross / reelArea : vec3( normal );
 #ifdef USE_TANGENT
   vec3 objectTangent = tangent.xyz - objectNormal * dot( tangent.xyz, objectNormal );
+#endif
+`;
+
+const place = /* glsl */ `
+#ifdef REEL_POSED
+  transformed = reelPosed[ 0 ];
+#else
+  transformed = reelPose( false )[ 0 ];
 #endif
 `;
 
@@ -118,5 +140,5 @@ export function reelVertexShader(shader) {
   return shader
     .replace('#include <common>', `#include <common>\n${declarations}`)
     .replace('#include <beginnormal_vertex>', normals)
-    .replace('#include <begin_vertex>', '#include <begin_vertex>\ntransformed = reelSum( reelNow(), 0 );');
+    .replace('#include <begin_vertex>', `#include <begin_vertex>\n${place}`);
 }

@@ -19,7 +19,8 @@ export async function serve() {
     if (request.url === '/empty.html' || request.url === '/bench.html') {
       response.writeHead(200, { 'Content-Type': 'text/html', 'Content-Security-Policy': policy });
       response.end(`<!doctype html><meta charset=utf-8><title>meshreel</title><script type=importmap nonce=map>
-        {"imports": {"three": "/js/node_modules/three/build/three.module.js", "three/addons/": "/js/node_modules/three/examples/jsm/",
+        {"imports": {"three": "/js/node_modules/three/build/three.module.js", "three/webgpu": "/js/node_modules/three/build/three.webgpu.js", "three/tsl": "/js/node_modules/three/build/three.tsl.js",
+        "three/addons/": "/js/node_modules/three/examples/jsm/",
         "meshoptimizer": "/js/node_modules/meshoptimizer/meshopt_decoder.mjs"}}</script><canvas width=256 height=256></canvas>
         ${request.url === '/bench.html' ? '<script src="/js/node_modules/draco3d/draco_decoder_nodejs.js"></script>' : ''}`);
     } else if (!path.startsWith(root) || !existsSync(path) || !statSync(path).isFile()) {
@@ -45,7 +46,7 @@ export async function browse() {
     executablePath: '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
       '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
-      '--js-flags=--expose-gc'],
+      '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--js-flags=--expose-gc'],
   });
   return browser;
 }

@@ -9,6 +9,7 @@ import { areaNormals } from '../src/surface.js';
 
 export { THREE, ReelLoader, decodeReel };
 export * from '../src/index.js';
+export { decodedFrames, diagonalOf, difference } from './frames.js';
 
 export const renderer = new THREE.WebGLRenderer({ canvas: document.querySelector('canvas') });
 renderer.debug.checkShaderErrors = true;
@@ -16,33 +17,15 @@ renderer.debug.checkShaderErrors = true;
 /// [3 x vertices shown]: positions (0) or normals (1).
 export const readBack = (mesh, what) => readFrom(renderer, mesh, what);
 
-/// All frames of a file by the CPU decoder, as decodeReel gives them, and its head.
-export async function decodedFrames(address) {
-  const frames = [];
-  let head = null;
-  for await (const event of decodeReel(address, { frames: true })) {
-    if (event.head) head = event.head;
-    if (event.type !== 'segment') continue;
-    const { frameCount, frames: all } = event.piece, n = all.length / frameCount;
-    for (let f = 0; f < frameCount; ++f) frames.push(all.subarray(f * n, (f + 1) * n));
-  }
-  return { head, frames };
-}
-
-/// Largest distance of a component over the diagonal of the first frame; vertexOf: the file's vertex of each shown.
-export function difference(shown, expected, diagonal) {
-  let most = 0;
-  for (let i = 0; i < shown.length; ++i) most = Math.max(most, Math.abs(shown[i] - expected[i]));
-  return most / diagonal;
-}
-
-export function diagonalOf(frame) {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  frame.forEach((x, i) => {
-    low[i % 3] = Math.min(low[i % 3], x);
-    high[i % 3] = Math.max(high[i % 3], x);
-  });
-  return Math.hypot(...high.map((x, c) => x - low[c]));
+/// What is sent to the card to show a mesh at a time: how many numbers in a picture, and the names of other calls that send.
+export function uploads(mesh, time) {
+  const gl = renderer.getContext(), sent = [], calls = ['texImage2D', 'texSubImage2D', 'texStorage2D', 'bufferData', 'bufferSubData'];
+  for (const name of calls) gl[name] = (...words) => (sent.push(words.at(-1)?.length ?? name), WebGL2RenderingContext.prototype[name].apply(gl, words));
+  mesh.frustumCulled = false;
+  mesh.player.seek(time);
+  renderer.render(new THREE.Scene().add(mesh), new THREE.PerspectiveCamera());
+  for (const name of calls) delete gl[name];
+  return sent;
 }
 
 /// Angles in degrees between the normals that a mesh shows and those of the triangles around each vertex, sorted.

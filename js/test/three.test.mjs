@@ -120,6 +120,18 @@ test('in a crowd each instance shows its own phase', { skip }, async () => {
   assert.ok(worst < 1e-4, `${worst}`);
 });
 
+test('to show a time nothing is uploaded but the basis mixed for it: 3 K + 4 numbers; where segments meet and in crowds not even that', { skip }, async () => {
+  const { within, meeting, crowd, K } = await page.evaluate(async (file) => {
+    const { ReelLoader, ReelCrowd, THREE, uploads } = stage, mesh = await new ReelLoader().loadAsync(file), { timeline, tables } = mesh.clip;
+    const crowd = new ReelCrowd(mesh.clip, new THREE.MeshStandardMaterial(), 9), at = (frame) => ((frame / 11) * timeline.duration);
+    for (const each of [mesh, crowd]) uploads(each, 0);
+    const found = { within: uploads(mesh, at(1.5)), meeting: uploads(mesh, at(3.5)), crowd: uploads(crowd, at(5.5)) };
+    for (const each of [mesh, crowd, mesh.clip]) each.dispose();
+    return { ...found, K: 4 * Math.max(...tables.frames.filter((_, i) => i % 8 === 1)) };
+  }, '/tests/golden/reel_v1_segments_walker.reel');
+  assert.deepEqual([within, meeting, crowd], [[3 * K + 4], [], []]);
+});
+
 test('standard materials, several of them, lights and shadows: pixels change as it moves, shaders compile', { skip }, async () => {
   complaints.length = 0;
   const seen = await page.evaluate(async ([walk, dressed]) => {
