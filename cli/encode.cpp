@@ -86,10 +86,10 @@ public:
         MESHREEL_TRY(const Animation base, load_base(source_, console));
         MESHREEL_TRY(const std::unique_ptr<FrameSource> frames, open(source_, console));
         const Stopwatch encoding;
-        MESHREEL_TRY(const Encoded encoded, in_file(encode(*frames, options(base, console)), source_.path));
+        MESHREEL_TRY(const Reached reached,
+                     in_file(save_encoded(*frames, options(base, console), target_), source_.path));
         const double encode_seconds = encoding.seconds(), processor_seconds = encoding.processor_seconds();
-        MESHREEL_CHECK(save_bytes(encoded.bytes, target_));
-        MESHREEL_CHECK(add_figures(figures, *frames, encoded));
+        MESHREEL_CHECK(add_figures(figures, *frames, reached));
         figures["encode_seconds"] = encode_seconds;
         figures["encode_processor_seconds"] = processor_seconds;
         figures["seconds"] = watch.seconds();
@@ -191,7 +191,7 @@ private:
         return all;
     }
 
-    Status add_figures(Json& figures, FrameSource& frames, const Encoded& encoded) const
+    Status add_figures(Json& figures, FrameSource& frames, const Reached& reached) const
     {
         const Animation& animation = frames.still();
         Matrix<float> room;
@@ -203,16 +203,16 @@ private:
         figures["basis"] = choices_.basis;
         figures["entropy"] = choices_.entropy;
         figures["raw_bytes"] = raw_bytes(animation);
-        figures["reel_bytes"] = encoded.bytes.size();
-        figures["bpfv"] = number(encoded.bpfv);
-        figures["kg"] = number(encoded.kg);
-        figures["max_error"] = number(encoded.max_error);
-        figures["max_error_relative"] = number(diagonal > 0.0 ? 100.0 * encoded.max_error / diagonal : 0.0);
-        figures["psnr"] = number(encoded.psnr);
-        figures["sted"] = encoded.sted ? number(*encoded.sted) : Json(nullptr);
+        figures["reel_bytes"] = reached.file_bytes;
+        figures["bpfv"] = number(reached.bpfv);
+        figures["kg"] = number(reached.kg);
+        figures["max_error"] = number(reached.max_error);
+        figures["max_error_relative"] = number(diagonal > 0.0 ? 100.0 * reached.max_error / diagonal : 0.0);
+        figures["psnr"] = number(reached.psnr);
+        figures["sted"] = reached.sted ? number(*reached.sted) : Json(nullptr);
         figures["effort"] = effort_;
-        figures["bases"] = encoded.bases;
-        figures["step"] = number(encoded.step);
+        figures["bases"] = reached.bases;
+        figures["step"] = number(reached.step);
         return Ok{};
     }
 

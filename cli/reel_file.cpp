@@ -86,8 +86,10 @@ Status save_reel(const Animation& animation, const Target& target, Console& cons
 {
     EncodeOptions options;
     options.progress = console.progress();
-    MESHREEL_TRY(const Encoded encoded, in_file(encode(animation, options), target.path));
-    return save_bytes(encoded.bytes, target);
+    MESHREEL_CHECK(in_file(validate(animation), target.path));
+    HeldFrames frames(animation);
+    const Result<Reached> reached = in_file(save_encoded(frames, options, target), target.path);
+    return reached.ok() ? Status(Ok{}) : reached.error();
 }
 
 } // namespace meshreel::cli

@@ -204,6 +204,17 @@ Status save(FrameSource& frames, const Target& target, Console& console)
     return saved;
 }
 
+Result<Reached> save_encoded(FrameSource& frames, const EncodeOptions& options, const Target& target)
+{
+    MESHREEL_TRY(AtomicFile file, in_file(AtomicFile::create(target.path, target.overwrite), target.path));
+    MemorySpool held;
+    Spool& spool = file.reads_back() ? static_cast<Spool&>(file) : held;
+    MESHREEL_TRY(const Reached reached, encode(frames, spool, options));
+    if (!file.reads_back()) MESHREEL_CHECK(in_file(file.write(std::move(held).take()), target.path));
+    MESHREEL_CHECK(in_file(file.commit(), target.path));
+    return reached;
+}
+
 Status save_bytes(ByteView bytes, const Target& target)
 {
     return in_file(write_file(target.path, bytes, target.overwrite), target.path);

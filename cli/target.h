@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/source.h"
 #include "meshreel/io/io.h"
+#include "meshreel/meshreel.h"
 #include "meshreel/mesh/animation.h"
 
 namespace meshreel::cli {
@@ -47,6 +48,9 @@ Status save(const Animation& animation, const Target& target, Console& console);
 bool takes_frames(const Target& target);
 /// The same of frames that are asked for one after the other. @pre takes_frames(target)
 Status save(FrameSource& frames, const Target& target, Console& console);
+
+/// Encodes into a .reel file, which appears when it is whole.
+Result<Reached> save_encoded(FrameSource& frames, const EncodeOptions& options, const Target& target);
 
 /// Bytes to a file or to standard output, but not to a terminal.
 Status save_bytes(ByteView bytes, const Target& target);

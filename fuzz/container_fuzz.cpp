@@ -16,7 +16,7 @@ Bytes file_of(ByteView data)
 {
     constexpr Tag types[] = {type::head, type::time, type::meta, type::conn,       type::matl,      type::grup,
                              type::attr, type::aset, type::segm, make_tag("news"), make_tag("NEWS")};
-    StreamWriter file;
+    MemoryWriter file;
     while (data.size() >= 3) {
         const Tag type = types[data[0] % std::size(types)];
         const std::size_t size =

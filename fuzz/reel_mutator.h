@@ -35,7 +35,7 @@ inline std::vector<Part> parts_of(ByteView bytes)
 /// @return the size; 0: it has no room.
 inline std::size_t put_together(const std::vector<Part>& parts, std::uint8_t* data, std::size_t max_size)
 {
-    container::StreamWriter writer;
+    container::MemoryWriter writer;
     for (const Part& part : parts) writer.add(part.type, part.payload);
     const Bytes file = std::move(writer).finish();
     if (file.size() > max_size) return 0;

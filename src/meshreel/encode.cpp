@@ -41,6 +41,12 @@ Error usage(std::string message)
     return {ErrorCode::usage, std::move(message), {}, {}, {}};
 }
 
+/// Payloads for Encoding::assemble().
+auto from(const std::vector<Bytes>& payloads)
+{
+    return [&payloads](std::size_t s) { return Result<ByteView>(payloads[s]); };
+}
+
 /// An animation on its way into a file.
 class Encoding {
 public:
@@ -58,17 +64,31 @@ public:
     }
 
     /// The smallest file found that keeps the quality asked for, or the best one of the size asked for.
-    Result<Encoded> encode()
+    Result<Reached> encode(Spool& spool)
     {
-        if (codec_.exact()) {
-            MESHREEL_TRY(const tune::Attempt attempt, exact());
-            return finished(attempt);
-        }
+        if (codec_.exact()) return exact(spool);
         if (options_.quality.bases || options_.quality.step) {
             MESHREEL_TRY(const codecs::Settings settings, by_hand());
             MESHREEL_TRY(const tune::Attempt attempt, attempted(settings));
-            return finished(attempt);
+            return finished(attempt, spool);
         }
+        MESHREEL_TRY(const Encoded best, searched());
+        MESHREEL_CHECK(spool.write(best.bytes));
+        return best;
+    }
+
+private:
+    const connectivity::Surface& surface() const { return topology_.topology.surface; }
+
+    Encoding(FrameSource& source, const EncodeOptions& options, const codecs::Codec& codec,
+             connectivity::Encoded topology)
+        : source_(source), options_(options), codec_(codec), topology_(std::move(topology)),
+          segments_({source, topology_, codec, options.threads})
+    {
+    }
+
+    Result<Encoded> searched()
+    {
         std::optional<Encoded> best;
         MESHREEL_TRY(const double spread, length_spread());
         tune::Problem problem{
@@ -93,16 +113,6 @@ public:
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
         if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
         return *std::move(best);
-    }
-
-private:
-    const connectivity::Surface& surface() const { return topology_.topology.surface; }
-
-    Encoding(FrameSource& source, const EncodeOptions& options, const codecs::Codec& codec,
-             connectivity::Encoded topology)
-        : source_(source), options_(options), codec_(codec), topology_(std::move(topology)),
-          segments_({source, topology_, codec, options.threads})
-    {
     }
 
     const Animation& still() const { return source_.still(); }
@@ -130,7 +140,7 @@ private:
     /// As asked for, or where it pays.
     Status cut()
     {
-        const std::size_t F = source_.frame_count(), longest = longest_segment(surface().vertex_count);
+        const std::size_t F = source_.frame_count(), longest = longest_segment(surface().vertex_count, codec_.exact());
         segments_.cut(equal_segments(F, options_.segment == 0 ? longest : options_.segment));
         const bool no_step = options_.quality.bases && !options_.quality.step;
         if (options_.segment != 0 || codec_.exact() || no_step) return Ok{};
@@ -224,22 +234,23 @@ private:
         return opening_fast(settings);
     }
 
-    /// All segments of a codec that loses nothing.
-    Result<tune::Attempt> exact()
+    /// The file of a codec that loses nothing, segment by segment.
+    Result<Reached> exact(Spool& spool)
     {
         tune::Attempt attempt;
-        for (std::size_t s = 0; s < segments_.count(); ++s) {
+        MESHREEL_CHECK(assemble(spool, [&](std::size_t s) -> Result<Bytes> {
             MESHREEL_TRY(const PreparedSegments::Visit segment, segments_.visit(s));
-            add_segment(segment.encoder.encode(common({.growth = plan_.start.growth})), attempt);
-        }
-        return attempt;
+            codecs::Trial trial = segment.encoder.encode(common({.growth = plan_.start.growth}));
+            note(trial, attempt);
+            return std::move(trial.payload);
+        }));
+        return measured(spool, attempt);
     }
 
-    static void add_segment(codecs::Trial trial, tune::Attempt& attempt)
+    static void note(const codecs::Trial& trial, tune::Attempt& attempt)
     {
         attempt.bases = std::max(attempt.bases, trial.bases);
         attempt.step = std::max(attempt.step, trial.step);
-        attempt.payloads.push_back(std::move(trial.payload));
     }
 
     /// A vertex that is too far off in one frame is coded anew, aimed beyond where it should be: a few that miss the limit
@@ -283,7 +294,8 @@ private:
                 attempt.nudges.push_back(std::move(off.nudges));
             }
             if (wants_sted()) sted += static_cast<double>(segment.frames.rows) * meter.sted(trial.decoded);
-            add_segment(std::move(trial), attempt);
+            note(trial, attempt);
+            attempt.payloads.push_back(std::move(trial.payload));
         }
         reached.kg = norm() > 0 ? 100 * std::sqrt(squared_error) / norm() : 0.0; // (5.2)
         attempt.mean_square = squared_error / points();
@@ -301,7 +313,8 @@ private:
         double size = 0;
         for (const Bytes& payload : payloads) size += static_cast<double>(payload.size());
         if (!around_) {
-            MESHREEL_TRY(const Bytes file, assembled(payloads));
+            MemorySpool file;
+            MESHREEL_CHECK(assemble(file, from(payloads)));
             around_ = static_cast<double>(file.size()) - size;
         }
         return *around_ + size;
@@ -310,16 +323,18 @@ private:
     /// The excess of the decoded file. Keeps the file where it is the best one yet.
     Result<double> verified(const tune::Attempt& attempt, std::optional<Encoded>& best)
     {
-        MESHREEL_TRY(Encoded encoded, finished(attempt));
-        const double excess = excess_of(reached_by(encoded), allowed_);
-        if (excess <= 1.0 && (!best || excess > excess_of(reached_by(*best), allowed_))) best = std::move(encoded);
+        MemorySpool file;
+        MESHREEL_TRY(const Reached reached, finished(attempt, file));
+        const double excess = excess_of(measures_of(reached), allowed_);
+        if (excess <= 1.0 && (!best || excess > excess_of(measures_of(*best), allowed_)))
+            best = Encoded{reached, std::move(file).take()};
         return excess;
     }
 
-    Measures reached_by(const Encoded& encoded) const
+    Measures measures_of(const Reached& reached) const
     {
-        return {encoded.kg, diagonal() * std::pow(10.0, -encoded.psnr / 20), encoded.max_error,
-                encoded.sted.value_or(0.0), static_cast<double>(encoded.bytes.size())};
+        return {reached.kg, diagonal() * std::pow(10.0, -reached.psnr / 20), reached.max_error,
+                reached.sted.value_or(0.0), static_cast<double>(reached.file_bytes)};
     }
 
     Error missed() const
@@ -374,7 +389,9 @@ private:
         return error;
     }
 
-    Result<Bytes> assembled(const std::vector<Bytes>& payloads) const
+    /// payload_of(s): of segment s, asked for in their order; bytes, or a view of them.
+    template <class PayloadOf>
+    Status assemble(Spool& spool, const PayloadOf& payload_of) const
     {
         container::Header header;
         header.codec = codec_.name;
@@ -386,7 +403,7 @@ private:
         if (options_.order == Order::base)
             header.base_fingerprint = container::fingerprint_of(still().vertex_count, still().triangles);
         header.encoder = concat("meshreel ", version);
-        container::StreamWriter file;
+        container::StreamWriter file(spool);
         MESHREEL_CHECK(container::add_head(file, header, still().times_s, still().meta));
         file.add(container::type::conn, ByteView(topology_.bytes));
         const bool renumbered = options_.order == Order::free;
@@ -394,31 +411,39 @@ private:
         MESHREEL_CHECK(container::add_appearance(
             file, renumbered ? reordered(appearance, {topology_.vertex_of, topology_.corner_of}) : appearance,
             {still().vertex_count, topology_.topology.triangles}));
-        for (std::size_t s = 0; s < segments_.count(); ++s)
+        for (std::size_t s = 0; s < segments_.count(); ++s) {
+            const auto [first, count] = segments_.span(s);
+            MESHREEL_TRY(const auto payload, payload_of(s));
             MESHREEL_CHECK(
-                file.add(container::type::segm,
-                         container::Segment{static_cast<std::uint32_t>(segments_.span(s).first),
-                                            static_cast<std::uint32_t>(segments_.span(s).count), payloads[s]}));
-        return std::move(file).finish();
+                file.add(container::type::segm, container::Segment{static_cast<std::uint32_t>(first),
+                                                                   static_cast<std::uint32_t>(count), payload}));
+        }
+        return file.finish();
     }
 
-    /// The file of an attempt, decoded again and measured in the original order.
-    Result<Encoded> finished(const tune::Attempt& attempt)
+    /// The file of an attempt.
+    Result<Reached> finished(const tune::Attempt& attempt, Spool& spool)
     {
-        Encoded encoded;
-        MESHREEL_TRY(encoded.bytes, assembled(attempt.payloads));
-        MESHREEL_TRY(
-            const Difference off,
-            difference(encoded.bytes, source_, {topology_.vertex_of, options_.base, wants_sted(), options_.threads}));
-        encoded.kg = off.kg;
-        encoded.max_error = std::sqrt(off.vertex_error.largest_square);
-        encoded.psnr = 10 * std::log10(diagonal() * diagonal() / off.vertex_error.mean_square); // (5.1)
-        encoded.sted = off.sted;
-        encoded.bpfv = 8.0 * static_cast<double>(encoded.bytes.size()) /
+        MESHREEL_CHECK(assemble(spool, from(attempt.payloads)));
+        return measured(spool, attempt);
+    }
+
+    /// The file decoded again and measured in the original order.
+    Result<Reached> measured(Spool& file, const tune::Attempt& attempt)
+    {
+        MESHREEL_TRY(const Difference off,
+                     difference(file, source_, {topology_.vertex_of, options_.base, wants_sted(), options_.threads}));
+        Reached reached;
+        reached.file_bytes = file.size();
+        reached.bpfv = 8.0 * static_cast<double>(file.size()) /
                        (static_cast<double>(source_.frame_count()) * still().vertex_count); // (9.1)
-        encoded.bases = attempt.bases;
-        encoded.step = attempt.step / diagonal();
-        return encoded;
+        reached.kg = off.kg;
+        reached.max_error = std::sqrt(off.vertex_error.largest_square);
+        reached.psnr = 10 * std::log10(diagonal() * diagonal() / off.vertex_error.mean_square); // (5.1)
+        reached.sted = off.sted;
+        reached.bases = attempt.bases;
+        reached.step = attempt.step / diagonal();
+        return reached;
     }
 
     FrameSource& source_;
@@ -465,6 +490,15 @@ Result<Encoded> encode(const Animation& animation, const EncodeOptions& options)
 Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options)
 {
     return within_memory([&]() -> Result<Encoded> {
+        MemorySpool file;
+        MESHREEL_TRY(const Reached reached, encode(frames, file, options));
+        return Encoded{reached, std::move(file).take()};
+    });
+}
+
+Result<Reached> encode(FrameSource& frames, Spool& spool, const EncodeOptions& options)
+{
+    return within_memory([&]() -> Result<Reached> {
         MESHREEL_CHECK(validate_still(frames.still()));
         MESHREEL_CHECK(check_quality(options.quality));
         MESHREEL_CHECK(check_effort(options.effort));
@@ -474,7 +508,7 @@ Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options)
         if (codec->exact() && asks_anything(options.quality))
             return usage(concat("the codec ", options.codec, " loses nothing: it has no quality to choose"));
         MESHREEL_TRY(const std::unique_ptr<Encoding> encoding, Encoding::begin(frames, options, *codec));
-        return encoding->encode();
+        return encoding->encode(spool);
     });
 }
 

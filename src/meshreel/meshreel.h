@@ -55,8 +55,8 @@ struct EncodeOptions {
 inline constexpr std::uint32_t one_segment = 0xffffffff;
 
 /// What an encoding reached, measured on the decoded file.
-struct Encoded {
-    Bytes bytes;                ///< the whole .reel file
+struct Reached {
+    std::uint64_t file_bytes = 0;
     double bpfv = 0.0;          ///< bits of the whole file over F V (9.1)
     double kg = 0.0;            ///< KG error, percent
     double max_error = 0.0;     ///< model units
@@ -64,6 +64,10 @@ struct Encoded {
     std::optional<double> sted; ///< where it was asked for, by target or tune
     std::uint32_t bases = 0;    ///< K
     double step = 0.0;          ///< coefficient step, fraction of the body diagonal
+};
+
+struct Encoded : Reached {
+    Bytes bytes; ///< the whole .reel file
 };
 
 struct DecodeOptions {
@@ -88,6 +92,10 @@ Result<Encoded> encode(const Animation& animation, const EncodeOptions& options 
 /// The same of frames that are read when they are needed, again and again: of a long animation one segment is in memory
 /// at a time, and the file. @fails as above; as the source does.
 Result<Encoded> encode(FrameSource& frames, const EncodeOptions& options = {});
+
+/// The same into an empty spool, such as an AtomicFile: of a codec that loses nothing not even the file is in memory. Where
+/// it fails, what the spool holds is no file. @fails as above; as the spool does.
+Result<Reached> encode(FrameSource& frames, Spool& spool, const EncodeOptions& options = {});
 
 /// Rebuilds an animation. Any bytes may be given. @fails bad_input, unsupported, naming byte and field.
 Result<Animation> decode(ByteView reel, const DecodeOptions& options = {});

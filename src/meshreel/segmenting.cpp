@@ -83,10 +83,11 @@ std::vector<FrameSpan> equal_segments(std::size_t F, std::size_t longest)
     return segments;
 }
 
-std::size_t longest_segment(std::uint32_t coded_vertices)
+std::size_t longest_segment(std::uint32_t coded_vertices, bool exact)
 {
-    constexpr double memory = 1.2e9, fixed = 2400,
-                     a_frame = 24; // bytes a vertex: coefficients, orders; two sets of frames
+    const double memory = exact ? 0.95e9 : 1.2e9,
+                 fixed = exact ? 3400 : 2400; // bytes a vertex: coefficients, orders, walks
+    constexpr double a_frame = 24;            // two sets of frames
     const double fitting = (memory / coded_vertices - fixed) / a_frame, most = coded_vertices > 3000 ? 1000 : 4000;
     return static_cast<std::size_t>(std::clamp(fitting, 32.0, most));
 }

@@ -21,8 +21,9 @@ struct FrameSpan {
 std::vector<FrameSpan> equal_segments(std::size_t F, std::size_t longest);
 
 /// How many frames a segment of W vertices has at most, so that it is encoded within a gigabyte, or little more where W is
-/// large: 1000, as the cost of a PCA grows with the square of the shorter side; 4000 where that side is W.
-std::size_t longest_segment(std::uint32_t coded_vertices);
+/// large: 1000, as the cost of a PCA grows with the square of the shorter side; 4000 where that side is W. Of a codec that
+/// loses nothing the best guess so far, and the walk, take their room too.
+std::size_t longest_segment(std::uint32_t coded_vertices, bool exact);
 
 /// The components of a run of frames.
 struct Spectrum {

@@ -86,11 +86,11 @@ Status check_rest(const container::StreamReader& file, const container::Header& 
 
 } // namespace
 
-Result<Difference> difference(ByteView bytes, FrameSource& source, const VerificationOptions& options)
+Result<Difference> difference(ByteSource& bytes, FrameSource& source, const VerificationOptions& options)
 {
-    MESHREEL_TRY(const container::StreamReader file, container::StreamReader::open(bytes));
+    MESHREEL_TRY(const container::StreamReader file, container::StreamReader::open_head(bytes));
     MESHREEL_TRY(const container::Header header, container::read_header(file));
-    MESHREEL_TRY(container::SegmentList segments, container::SegmentList::open(file, header));
+    container::SegmentFetcher segments(bytes, file, header);
     MESHREEL_TRY(const codecs::Codec* codec, codecs::codec_of(header));
     MESHREEL_TRY(const connectivity::Topology topology, codecs::read_topology(file, header, options.base));
     MESHREEL_CHECK(check_rest(file, header, topology));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "meshreel/base/byte_source.h"
 #include "meshreel/mesh/frame_source.h"
 #include "meshreel/metrics/vertex_error.h"
 
@@ -26,6 +27,6 @@ struct Difference {
 };
 
 /// Decodes all of a file, a segment in memory at a time. @fails as decode() and the source do.
-Result<Difference> difference(ByteView file, FrameSource& source, const VerificationOptions& options);
+Result<Difference> difference(ByteSource& file, FrameSource& source, const VerificationOptions& options);
 
 } // namespace meshreel

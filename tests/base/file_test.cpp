@@ -61,6 +61,17 @@ TEST_F(FileTest, AFileThatIsNotCommittedLeavesNothing)
     EXPECT_EQ(files(), 0u);
 }
 
+TEST_F(FileTest, WhatIsNotCommittedYetIsReadBackWhereItIsAsked)
+{
+    auto file = AtomicFile::create(path("a"), false);
+    ASSERT_TRUE(file.ok() && file->reads_back());
+    ASSERT_TRUE(file->write(Bytes{1, 2, 3}).ok() && file->write(Bytes{4}).ok());
+    EXPECT_EQ(file->size(), 4u);
+    EXPECT_EQ(*file->fetch(1, 3), (Bytes{2, 3, 4}));
+    EXPECT_EQ(file->fetch(2, 3).error().code, ErrorCode::io);
+    EXPECT_FALSE(AtomicFile::create("/dev/null", false)->reads_back());
+}
+
 TEST_F(FileTest, ADeviceIsWrittenStraightAndNeverReplaced)
 {
     ASSERT_TRUE(write_file("/dev/null", Bytes(10), false).ok());

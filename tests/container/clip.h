@@ -48,9 +48,9 @@ struct Clip {
     }
     MeshShape mesh() const { return {header.vertex_count, triangles}; }
     /// The chunks, without an end: for tests that add more.
-    StreamWriter writer() const
+    MemoryWriter writer() const
     {
-        StreamWriter file;
+        MemoryWriter file;
         EXPECT_TRUE(add_head(file, header, times_s, meta).ok());
         file.add(type::conn, ByteView(connectivity));
         EXPECT_TRUE(add_appearance(file, appearance, mesh()).ok());

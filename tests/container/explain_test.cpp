@@ -80,7 +80,7 @@ TEST(Explain, tells_only_the_beginning_of_a_long_list_and_reads_it_all)
 
 TEST(Explain, names_the_field_that_is_wrong)
 {
-    StreamWriter file;
+    MemoryWriter file;
     file.add(type::head, ByteView(Bytes{1, 'x', 0}));
     file.add(type::time, ByteView{});
     file.add(type::conn, ByteView{});

@@ -11,7 +11,7 @@ namespace {
 Bytes long_file(Clip& clip)
 {
     clip.header.frame_count = 1000;
-    StreamWriter file;
+    MemoryWriter file;
     EXPECT_TRUE(add_head(file, clip.header, uniform_times(1000, 24), clip.meta).ok());
     file.add(type::conn, ByteView(clip.connectivity));
     for (std::uint32_t s = 0; s < 100; ++s) {

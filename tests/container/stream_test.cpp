@@ -18,7 +18,7 @@ Error stream_error_of(const Bytes& bytes, const DecodeLimits& limits = {})
 /// A file of chunks as given, well closed.
 Bytes file_of(const std::vector<Tag>& types)
 {
-    StreamWriter file;
+    MemoryWriter file;
     for (const Tag type : types) file.add(type, ByteView{});
     return std::move(file).finish();
 }
@@ -37,7 +37,7 @@ TEST(Stream, every_truncation_is_an_error_that_names_byte_and_field)
 
 TEST(Stream, every_flipped_bit_is_an_error_in_skipped_chunks_too)
 {
-    StreamWriter writer = Clip().writer();
+    MemoryWriter writer = Clip().writer();
     writer.add(make_tag("zzzz"), random_bytes(20, 1));
     Bytes bytes = std::move(writer).finish();
     ASSERT_TRUE(StreamReader::open(bytes).ok());
@@ -69,10 +69,10 @@ TEST(Stream, refuses_a_later_major_version_and_reads_a_later_minor_one)
 
 TEST(Stream, skips_a_chunk_it_does_not_know_if_its_first_letter_is_small_and_refuses_it_otherwise)
 {
-    StreamWriter small = Clip().writer();
+    MemoryWriter small = Clip().writer();
     small.add(make_tag("news"), ByteView{});
     EXPECT_EQ(stream_error_of(std::move(small).finish()).message, "no error");
-    StreamWriter large = Clip().writer();
+    MemoryWriter large = Clip().writer();
     large.add(make_tag("News"), ByteView{});
     const Error error = stream_error_of(std::move(large).finish());
     EXPECT_EQ(error.code, ErrorCode::unsupported);
@@ -103,7 +103,7 @@ TEST(Stream, refuses_an_index_that_does_not_agree_with_the_chunks)
 {
     const std::uint64_t first = Preamble::size, empty_chunk = 9, index_offset = first + 4 * empty_chunk;
     for (const std::uint64_t wrong : {0, 1}) {
-        StreamWriter forged;
+        MemoryWriter forged;
         for (const Tag type : {type::head, type::time, type::conn, type::segm}) forged.add(type, ByteView{});
         const Index index{{{type::head, first, 0},
                            {type::time, first + empty_chunk, 0},

@@ -73,7 +73,7 @@ Bytes chosen(const Animation& animation, const Bytes& file, const codecs::Settin
             frames(f, 3ul * topology.surface_of[i / 3] + i % 3) = animation.frame(f)[i];
     const codecs::Sequence sequence{topology.surface, frames.view()};
     const auto trial = codecs::find("reel")->prepare(sequence, 512, {1})->encode(settings);
-    container::StreamWriter writer;
+    container::MemoryWriter writer;
     for (const container::Chunk& chunk : reader.chunks()) {
         if (chunk.type != container::type::segm)
             writer.add(chunk.type, chunk.payload);

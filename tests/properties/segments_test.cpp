@@ -95,6 +95,46 @@ TEST(Segments, FramesThatAreReadGiveTheBytesOfFramesInMemory)
     EXPECT_EQ(read.kg, held.kg);
 }
 
+namespace {
+
+/// Takes so many writes, then none.
+class FullDisk : public MemorySpool {
+public:
+    explicit FullDisk(int writes) : left_(writes) {}
+
+    Status write(ByteView bytes) override
+    {
+        if (--left_ < 0) return Error{ErrorCode::io, "the disk is full", {}, {}, {}};
+        return MemorySpool::write(bytes);
+    }
+
+private:
+    int left_;
+};
+
+} // namespace
+
+TEST(Segments, ASpoolTakesTheBytesThatMemoryWouldAndItsFailureIsTold)
+{
+    const Animation animation = swimmer(50);
+    for (const char* codec : {"reel", "lossless"}) {
+        HeldFrames frames(animation);
+        EncodeOptions options = in_segments(20);
+        options.codec = codec;
+        options.quality = {};
+        if (options.codec == "reel") options.quality.step = 1e-3;
+        MemorySpool spool;
+        const Reached reached = *encode(frames, spool, options);
+        EXPECT_EQ(reached.file_bytes, spool.size());
+        EXPECT_EQ(std::move(spool).take(), encode(animation, options)->bytes);
+        for (const int writes : {0, 1, 10}) {
+            FullDisk disk(writes);
+            const auto failed = encode(frames, disk, options);
+            EXPECT_EQ(failed.ok() ? "it worked" : failed.error().message, "the disk is full");
+        }
+    }
+}
+
 TEST(Segments, WhatAnEncodingSaysIsWhatTheMeasuresSayOfTheDecodedFile)
 {
     const Animation animation = swimmer(50);

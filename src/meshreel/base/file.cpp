@@ -30,6 +30,21 @@ struct Descriptor {
     }
 };
 
+/// The bytes offset .. offset + count - 1 of an open file.
+Result<Bytes> bytes_at(int descriptor, std::uint64_t offset, std::size_t count, const std::string& path)
+{
+    Bytes bytes(count);
+    for (std::size_t filled = 0; filled < count;) {
+        const ssize_t got =
+            ::pread(descriptor, bytes.data() + filled, count - filled, static_cast<off_t>(offset + filled));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return system_error(path, "cannot read");
+        if (got == 0) return Error{ErrorCode::io, "became shorter while it was read", {}, path, {}};
+        filled += static_cast<std::size_t>(got);
+    }
+    return bytes;
+}
+
 /// A sibling name that nobody else uses; the randomness only avoids collisions.
 std::string temporary_name(const std::string& path)
 {
@@ -103,16 +118,7 @@ Result<FileSource> FileSource::open(const std::string& path)
 
 Result<Bytes> FileSource::fetch(std::uint64_t offset, std::size_t count)
 {
-    Bytes bytes(count);
-    for (std::size_t filled = 0; filled < count;) {
-        const ssize_t got =
-            ::pread(descriptor_, bytes.data() + filled, count - filled, static_cast<off_t>(offset + filled));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return system_error(path_, "cannot read");
-        if (got == 0) return Error{ErrorCode::io, "became shorter while it was read", {}, path_, {}};
-        filled += static_cast<std::size_t>(got);
-    }
-    return bytes;
+    return bytes_at(descriptor_, offset, count, path_);
 }
 
 AtomicFile::AtomicFile(std::string path, std::string temporary, int descriptor)
@@ -122,7 +128,7 @@ AtomicFile::AtomicFile(std::string path, std::string temporary, int descriptor)
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})),
-      former_(std::exchange(other.former_, {})), descriptor_(std::exchange(other.descriptor_, -1)),
+      former_(std::exchange(other.former_, {})), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_),
       appeared_(other.appeared_)
 {
 }
@@ -147,7 +153,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, bool overwrite)
     }
     if (there && !overwrite) return Error{ErrorCode::usage, "exists already; pass -y to overwrite it", {}, path, {}};
     AtomicFile file(path, temporary_name(path), -1); // before there is a file that it would have to remove
-    file.descriptor_ = ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    file.descriptor_ = ::open(file.temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file.descriptor_ < 0) return system_error(path, "cannot write");
     return file;
 }
@@ -159,8 +165,14 @@ Status AtomicFile::write(ByteView bytes)
         if (put < 0 && errno == EINTR) continue;
         if (put < 0) return system_error(path_, "cannot write");
         bytes = bytes.subspan(static_cast<std::size_t>(put));
+        size_ += static_cast<std::uint64_t>(put);
     }
     return Ok{};
+}
+
+Result<Bytes> AtomicFile::fetch(std::uint64_t offset, std::size_t count)
+{
+    return bytes_at(descriptor_, offset, count, path_);
 }
 
 Status AtomicFile::finish()

@@ -7,6 +7,7 @@
 #include "meshreel/base/byte_source.h"
 #include "meshreel/base/limits.h"
 #include "meshreel/base/result.h"
+#include "meshreel/base/spool.h"
 #include "meshreel/base/views.h"
 
 namespace meshreel {
@@ -40,17 +41,24 @@ bool is_regular_file(const std::string& path);
 
 /// A file that appears under its name only when complete. Until commit() the bytes stand in a temporary file beside it,
 /// which the destructor removes. "-" is standard output; a device or a pipe is written straight.
-class AtomicFile {
+class AtomicFile : public Spool {
 public:
     /// @fails io: the folder cannot be written, or `path` is one; usage: the file exists and `overwrite` is false.
     static Result<AtomicFile> create(const std::string& path, bool overwrite);
 
     AtomicFile(AtomicFile&& other) noexcept;
     AtomicFile& operator=(AtomicFile&&) = delete;
-    ~AtomicFile();
+    ~AtomicFile() override;
 
     /// Appends. @fails io: the disk is full, or the file went away.
-    Status write(ByteView bytes);
+    Status write(ByteView bytes) override;
+    /// Of all that was written.
+    std::uint64_t size() const override { return size_; }
+    /// @pre reads_back(), and finish() was not called.
+    Result<Bytes> fetch(std::uint64_t offset, std::size_t count) override;
+    /// Whether fetch() can give what was written: standard output, devices and pipes cannot.
+    bool reads_back() const { return !temporary_.empty(); }
+
     /// All bytes are written: puts them on disk and frees the descriptor, so that thousands of files can wait for commit().
     Status finish();
     /// Makes the file appear under its name, with all its bytes on disk. What had this name before is gone.
@@ -67,6 +75,7 @@ private:
     std::string temporary_; ///< empty once committed, and for standard output
     std::string former_;    ///< what had the name before, under another one; empty: nothing, or it is not kept
     int descriptor_;
+    std::uint64_t size_ = 0;
     bool appeared_ = false; ///< under its name, by commit_revertibly()
 };
 

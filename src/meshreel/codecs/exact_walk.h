@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "meshreel/codecs/vertex_ring.h"
@@ -83,9 +84,10 @@ public:
     {
     }
 
+    using Place = std::conditional_t<Core::writes, const float, float>;
     /// One coordinate of a frame, [W] at a distance of 3 each.
     struct Frame {
-        float* now;          ///< writing: the values; afterwards the values
+        Place* now;          ///< the values; reading: where they go
         const float* before; ///< of the frame before; null for the first
         const double* base;  ///< null where there is none
     };
@@ -117,7 +119,7 @@ private:
         }
         const double guess = base + correction / unit;
         const float found = code_number(guess, usual, v, Core::writes ? frame.now[3 * v] : 0.0f);
-        frame.now[3 * v] = found;
+        if constexpr (!Core::writes) frame.now[3 * v] = found;
         missed_[0][v] = static_cast<double>(found) - base;
         const double wrong = static_cast<double>(found) - guess;
         wrong_[0][v] = wrong < 0 ? -wrong : wrong;

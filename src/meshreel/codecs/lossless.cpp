@@ -70,10 +70,12 @@ struct Strand {
 };
 template <class Core>
 using Strands = std::array<std::unique_ptr<Strand<Core>>, 3>;
+template <class Core>
+using Frames = MatrixView<typename ExactWalk<Core>::Place>;
 
 /// One more frame, unless reading makes no sense any more. base: [3W], or null.
 template <class Core>
-void walk_frame(Strand<Core>& strand, MatrixView<float> frames, std::array<std::size_t, 2> frame_and_coordinate,
+void walk_frame(Strand<Core>& strand, Frames<Core> frames, std::array<std::size_t, 2> frame_and_coordinate,
                 const double* base)
 {
     if (ended(strand.core)) return;
@@ -84,7 +86,7 @@ void walk_frame(Strand<Core>& strand, MatrixView<float> frames, std::array<std::
 
 /// Walks all frames, [F x 3W], the three coordinates side by side. guess: null, or what makes a base for each frame.
 template <class Core>
-void walk_frames(Strands<Core>& strands, const Trajectories* guess, MatrixView<float> frames, Threads threads)
+void walk_frames(Strands<Core>& strands, const Trajectories* guess, Frames<Core> frames, Threads threads)
 {
     Matrix<double> base(guess != nullptr ? frames_at_once : 0, frames.cols);
     for (std::size_t first = 0; first < frames.rows; first += frames_at_once) {
@@ -106,12 +108,10 @@ std::array<Bytes, 3> written_frames(const Sequence& sequence, const std::array<N
                                     const Trajectories* guess, Threads threads)
 {
     const VertexRing ring(sequence.surface);
-    Matrix<float> frames(sequence.frames.rows, sequence.frames.cols);
-    std::ranges::copy(sequence.frames.values(), frames.values.begin());
     Strands<coding::RangeEncoder> strands;
     for (std::size_t c = 0; c < 3; ++c)
         strands[c] = std::make_unique<Strand<coding::RangeEncoder>>(coding::RangeEncoder{}, lines[c], ring);
-    walk_frames(strands, guess, frames.view(), threads);
+    walk_frames(strands, guess, sequence.frames, threads);
     return {strands[0]->core.finish(), strands[1]->core.finish(), strands[2]->core.finish()};
 }
 
@@ -125,7 +125,7 @@ class LosslessEncoder : public Encoder {
 public:
     LosslessEncoder(const Sequence& sequence, Threads threads)
         : sequence_(sequence), lines_(number_lines(sequence.frames, threads)),
-          guesser_(find(guessing_codec)->prepare(sequence, most_bases, threads))
+          guesser_(find(guessing_codec)->prepare(sequence, most_bases(sequence.surface.vertex_count), threads))
     {
         const std::size_t stride = 1 + sequence.frames.values().size() / 30000; // some of all coordinates
         for (std::size_t i = 0; i < sequence.frames.values().size(); i += stride)
@@ -148,7 +148,12 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_bases = 512;
+    /// So many that the coefficients of the best guess, of the next one and of what they are made from stay small.
+    static std::size_t most_bases(std::size_t W)
+    {
+        constexpr std::size_t most = 512, least = 16, memory = 250'000'000, bytes_each = 4 * sizeof(double);
+        return std::clamp(memory / bytes_each / (W + 1), least, most);
+    }
 
     static std::size_t size_of(const std::array<Bytes, 3>& bits)
     {

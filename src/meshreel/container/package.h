@@ -1,12 +1,12 @@
 /// The parts of an animation that no codec changes, into a file and out of it.
 // SPDX-License-Identifier: MIT
 //
-// Writing:  StreamWriter file;
+// Writing:  StreamWriter file(spool);
 //           add_head(file, header, times_s, meta);      HEAD TIME meta
 //           file.add(type::conn, connectivity);         CONN
 //           add_appearance(file, appearance, mesh);     matl grup attr... aset...
 //           file.add(type::segm, Segment{0, F, bits});  SEGM...
-//           Bytes reel = std::move(file).finish();
+//           file.finish();
 // Reading:  StreamReader::open, read_header, then what is wanted, one Budget for all of it.
 #pragma once
 

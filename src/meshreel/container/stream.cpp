@@ -39,6 +39,16 @@ bool may_be_skipped(Tag type)
     return (type & 0x20) != 0;
 }
 
+/// Of what stands before a payload and of the payload.
+std::uint32_t checksum_of(ByteView head, ByteView payload)
+{
+    XXH3_state_t state;
+    XXH3_64bits_reset(&state);
+    XXH3_64bits_update(&state, head.data(), head.size());
+    XXH3_64bits_update(&state, payload.data(), payload.size());
+    return static_cast<std::uint32_t>(XXH3_64bits_digest(&state));
+}
+
 Error damaged_signature(ByteView bytes)
 {
     const bool looks_right = bytes.size() >= 5 && std::memcmp(bytes.data() + 1, "REEL", 4) == 0;
@@ -57,38 +67,45 @@ std::uint32_t checksum_of(ByteView bytes)
     return static_cast<std::uint32_t>(hash_of(bytes));
 }
 
-StreamWriter::StreamWriter()
+StreamWriter::StreamWriter(Spool& spool) : spool_(&spool)
 {
     Preamble preamble;
     Writer first;
     preamble.fields(first);
-    bytes_ = *std::move(first).finish();
-    bytes_.resize(Preamble::size - 4);
-    preamble.checksum = checksum_of(bytes_);
-    bytes_.resize(Preamble::size);
-    store<4>(preamble.checksum, bytes_.data() + Preamble::size - 4);
+    Bytes bytes = *std::move(first).finish();
+    preamble.checksum = checksum_of(ByteView(bytes).first(Preamble::size - 4));
+    store<4>(preamble.checksum, bytes.data() + Preamble::size - 4);
+    put(bytes);
+}
+
+void StreamWriter::put(ByteView bytes)
+{
+    if (written_.ok()) written_ = spool_->write(bytes);
 }
 
 void StreamWriter::add(Tag type, ByteView payload)
 {
-    const std::size_t begin = bytes_.size();
-    index_.chunks.push_back({type, begin, payload.size()});
+    index_.chunks.push_back({type, spool_->size(), payload.size()});
     const Bytes head = *write_fields(ChunkHead{type, payload.size()});
-    bytes_.insert(bytes_.end(), head.begin(), head.end());
-    bytes_.insert(bytes_.end(), payload.begin(), payload.end());
-    const std::uint32_t checksum = checksum_of(ByteView(bytes_).subspan(begin));
-    bytes_.resize(bytes_.size() + 4);
-    store<4>(checksum, bytes_.data() + bytes_.size() - 4);
+    std::uint8_t checksum[4];
+    store<4>(checksum_of(head, payload), checksum);
+    for (const ByteView part : {ByteView(head), payload, ByteView(checksum)}) put(part);
 }
 
-Bytes StreamWriter::finish() &&
+Status StreamWriter::finish()
 {
-    const std::uint64_t index_offset = bytes_.size();
+    const std::uint64_t index_offset = spool_->size();
     const Bytes index = *write_fields(index_);
     add(type::indx, ByteView(index));
-    const Bytes tail = *write_fields(Tail{index_offset, bytes_.size() + Tail::chunk_size});
+    const Bytes tail = *write_fields(Tail{index_offset, spool_->size() + Tail::chunk_size});
     add(type::tail, ByteView(tail));
-    return std::move(bytes_);
+    return written_;
+}
+
+Bytes MemoryWriter::finish() &&
+{
+    static_cast<void>(StreamWriter::finish().ok()); // memory takes everything
+    return std::move(*spool_).take();
 }
 
 Result<Preamble> read_preamble(ByteView first_bytes)

@@ -8,9 +8,10 @@
 // index there, and then only what it wants.
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "meshreel/base/byte_source.h"
+#include "meshreel/base/spool.h"
 #include "meshreel/container/fields.h"
 
 namespace meshreel::container {
@@ -121,28 +122,46 @@ std::uint32_t checksum_of(ByteView bytes);
 /// XXH3-64, seed 0.
 std::uint64_t hash_of(ByteView bytes);
 
-/// Builds a file in memory: add() each chunk in order, then finish().
+/// Builds a file: add() each chunk in order, then finish().
 class StreamWriter {
 public:
-    StreamWriter();
+    /// Into an empty spool, which must outlive it.
+    explicit StreamWriter(Spool& spool);
 
-    /// Appends a chunk of ready bytes.
+    /// Appends a chunk of ready bytes. What cannot be written finish() tells, or the next chunk made from a struct.
     void add(Tag type, ByteView payload);
-    /// Appends a chunk from a struct. @fails usage: a field is outside its range.
+    /// Appends a chunk from a struct. @fails usage: a field is outside its range; as the spool does.
     template <class Struct>
     requires requires(Struct& value, Writer& writer) { value.fields(writer); }
     Status add(Tag type, const Struct& value)
     {
         MESHREEL_TRY(const Bytes payload, write_fields(value));
         add(type, ByteView(payload));
-        return Ok{};
+        return written_;
     }
+    /// Appends index and tail. @fails as the spool does.
+    Status finish();
+
+private:
+    void put(ByteView bytes);
+
+    Spool* spool_;
+    Index index_;
+    Status written_ = Ok{}; ///< so far
+};
+
+/// The same in memory.
+class MemoryWriter : public StreamWriter {
+public:
+    MemoryWriter() : MemoryWriter(std::make_unique<MemorySpool>()) {}
+
     /// Appends index and tail; the whole file.
     Bytes finish() &&;
 
 private:
-    Bytes bytes_;
-    Index index_;
+    explicit MemoryWriter(std::unique_ptr<MemorySpool> spool) : StreamWriter(*spool), spool_(std::move(spool)) {}
+
+    std::unique_ptr<MemorySpool> spool_;
 };
 
 /// A file taken apart: every length, checksum, order and number of chunks verified.
