@@ -29,23 +29,48 @@ double total(const GuessLanes& sums)
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
-/// place += c * row.
-MESHREEL_WIDE void add_component(double c, std::span<const double> row, double* __restrict place)
+constexpr std::size_t rows_at_once = 4; // of the basis: each place is fetched once for all of them
+
+/// place [3F] += sum of c[k] rows[k], one after the other.
+MESHREEL_WIDEST void add_components(std::span<const double> c, const double* __restrict rows, std::span<double> place)
 {
-    const double* __restrict b = row.data();
-    for (std::size_t i = 0; i < row.size(); ++i) place[i] += c * b[i];
+    double* __restrict x = place.data();
+    const std::size_t n = place.size(), whole = c.size() - c.size() % rows_at_once;
+    for (std::size_t k = 0; k < whole; k += rows_at_once, rows += rows_at_once * n)
+        for (std::size_t i = 0; i < n; ++i)
+            x[i] = (((x[i] + c[k] * rows[i]) + c[k + 1] * rows[n + i]) + c[k + 2] * rows[2 * n + i]) +
+                   c[k + 3] * rows[3 * n + i];
+    for (std::size_t k = whole; k < c.size(); ++k, rows += n)
+        for (std::size_t i = 0; i < n; ++i) x[i] += c[k] * rows[i];
 }
 
-/// (x - p) . row
-MESHREEL_WIDE double shift_along(std::span<const double> row, const double* __restrict x, const double* __restrict p)
+/// (x - p) . rows[k] for some rows, which follow each other.
+template <std::size_t count>
+inline __attribute__((always_inline)) std::array<double, count>
+shifts_along(const double* __restrict rows, std::span<const double> x, const double* __restrict p)
 {
-    const double* __restrict b = row.data();
-    const std::size_t whole = row.size() - row.size() % guess_lanes;
-    GuessLanes sums{};
+    const std::size_t n = x.size(), whole = n - n % guess_lanes;
+    std::array<GuessLanes, count> sums{};
     for (std::size_t i = 0; i < whole; i += guess_lanes)
-        for (std::size_t l = 0; l < guess_lanes; ++l) sums[l] += (x[i + l] - p[i + l]) * b[i + l];
-    for (std::size_t i = whole; i < row.size(); ++i) sums[i - whole] += (x[i] - p[i]) * b[i];
-    return total(sums);
+        for (std::size_t k = 0; k < count; ++k)
+            for (std::size_t l = 0; l < guess_lanes; ++l) sums[k][l] += (x[i + l] - p[i + l]) * rows[k * n + i + l];
+    std::array<double, count> result;
+    for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t i = whole; i < n; ++i) sums[k][i - whole] += (x[i] - p[i]) * rows[k * n + i];
+        result[k] = total(sums[k]);
+    }
+    return result;
+}
+
+/// c[k] += (x - p) . rows[k]
+MESHREEL_WIDEST void add_shifts(std::span<const double> x, const double* p, const double* rows, std::span<double> c)
+{
+    std::size_t k = 0;
+    for (; k + rows_at_once <= c.size(); k += rows_at_once, rows += rows_at_once * x.size()) {
+        const auto shifts = shifts_along<rows_at_once>(rows, x, p);
+        for (std::size_t i = 0; i < rows_at_once; ++i) c[k + i] += shifts[i];
+    }
+    for (; k < c.size(); ++k, rows += x.size()) c[k] += shifts_along<1>(rows, x, p)[0];
 }
 
 /// Distances [F] of two trajectories [3F].
@@ -149,7 +174,7 @@ LengthGuess::LengthGuess(const Basis& basis, std::size_t vertex_count, Threads t
 void LengthGuess::pose(std::span<const double> c, std::span<double> place) const
 {
     std::copy(basis_.mean.begin(), basis_.mean.end(), place.begin());
-    for (std::size_t k = 0; k < c.size(); ++k) add_component(c[k], basis_.rows.row(k), place.data());
+    add_components(c, basis_.rows.values.data(), place);
 }
 
 void LengthGuess::know(std::span<const std::uint32_t> vertices, MatrixView<const double> C)
@@ -171,8 +196,7 @@ Matrix<double> LengthGuess::corrections(std::span<const std::uint32_t> vertices,
             std::copy_n(C.row(vertices[i]).begin(), batch.first, guess.c.begin());
             weights[i].apply(C, batch.first, std::span(guess.c).subspan(batch.first));
             correct(guess, weights[i], batch.first);
-            for (std::size_t k = batch.first; k < batch.last; ++k)
-                result(i, k - batch.first) = shift_along(basis_.rows.row(k), guess.x.data(), guess.start.data());
+            add_shifts(guess.x, guess.start.data(), basis_.rows.row(batch.first).data(), result.row(i));
         }
     });
     return result;
@@ -190,8 +214,7 @@ void LengthGuess::correct(Guess& guess, const Interpolation::Weights& near, std:
     guess.x = guess.reached = guess.start;
     for (int pass = 0; pass < guess_passes; ++pass) {
         if (pass > 0) {
-            for (std::size_t k = first; k < guess.c.size(); ++k)
-                guess.c[k] += shift_along(basis_.rows.row(k), guess.x.data(), guess.reached.data());
+            add_shifts(guess.x, guess.reached.data(), basis_.rows.row(first).data(), std::span(guess.c).subspan(first));
             pose(guess.c, guess.reached);
             guess.x = guess.reached;
         }
