@@ -226,7 +226,7 @@ private:
                             human_bytes(value("reel_bytes")), value("bpfv"));
         text += fmt::format("  KG error {:.4g} %, largest error {:.4g} units = {:.4g} % of the diagonal\n", value("kg"),
                             value("max_error"), value("max_error_relative"));
-        text += fmt::format("  PSNR {:.4g} dB", value("psnr"));
+        text += figures["psnr"].is_null() ? "  nothing lost" : fmt::format("  PSNR {:.4g} dB", value("psnr"));
         text += figures["sted"].is_null() ? "\n" : fmt::format(", STED {:.4g}\n", value("sted"));
         return text + fmt::format("  {} bases, step {:.4g}; {:.2f} s, at most {} of memory\n", value("bases"),
                                   value("step"), value("seconds"), human_bytes(value("peak_memory_bytes")));
