@@ -111,18 +111,25 @@ export async function frameTimes(file, rounds, each) {
   return found;
 }
 
-async function openReel(file) {
-  const clip = await new ReelLoader().loadClip(file);
-  show(new ReelMesh(clip, new THREE.MeshStandardMaterial()));
+/// Drawn with nothing in it, while the worker decodes.
+function waiting() {
+  const mesh = new ReelMesh(null, new THREE.MeshStandardMaterial());
+  show(mesh);
+  renderer.render(scene, camera);
+  return mesh;
+}
+function wear(mesh, clip) {
+  mesh.change(clip);
   lookAt(clip.geometry.boundingSphere);
+}
+async function openReel(file) {
+  const coming = new ReelLoader().loadClip(file), mesh = waiting();
+  wear(mesh, await coming);
 }
 /// A coarse level, before all is there.
 async function openCoarse(file) {
-  for await (const clip of new ReelLoader().loadClips(file)) {
-    show(new ReelMesh(clip, new THREE.MeshStandardMaterial()));
-    lookAt(clip.geometry.boundingSphere);
-    break;
-  }
+  const clips = new ReelLoader().loadClips(file), first = clips.next(), mesh = waiting();
+  wear(mesh, (await first).value);
 }
 async function openGltf(file) {
   await MeshoptDecoder.ready;
