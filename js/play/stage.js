@@ -25,6 +25,28 @@ function light(scene) {
   return key;
 }
 
+function sphereOf(box) {
+  const sphere = box.getBoundingSphere(new Sphere());
+  if (!(sphere.radius > 0)) sphere.radius = 1;
+  return sphere;
+}
+
+/// As near as a box is seen whole.
+function place(camera, { width, height }, box) {
+  const { center, radius } = sphereOf(box), steep = 0.92 * Math.tan((camera.fov * Math.PI) / 360), corner = new Vector3();
+  Object.assign(camera, { aspect: width / height, near: radius / 100, far: 40 * radius });
+  camera.position.copy(home);
+  camera.lookAt(0, 0, 0);
+  const half = box.getSize(new Vector3()).multiplyScalar(0.5), turned = camera.quaternion.clone().invert();
+  let distance = 0.1 * radius;
+  for (let i = 0; i < 8; ++i) {
+    corner.set(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).multiply(half).applyQuaternion(turned);
+    distance = Math.max(distance, corner.z + Math.max(Math.abs(corner.x) / camera.aspect, Math.abs(corner.y)) / steep);
+  }
+  camera.position.copy(center).addScaledVector(home, distance);
+  camera.updateProjectionMatrix();
+}
+
 export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
@@ -46,7 +68,7 @@ export class Stage {
     this.meshes = new Map(); // by pane
     this.panes = ['decoded'];
     this.marks = new Map();
-    this.sphere = new Sphere(new Vector3(), 1);
+    Object.assign(this, { box: new Box3(), center: new Vector3(), radius: 1 }); // of all poses
     this.dirty = true;
   }
 
@@ -96,16 +118,20 @@ export class Stage {
     this.root.updateMatrixWorld();
   }
 
-  /// Looks at all of a clip from the front, from a little above.
-  frame(clip) {
-    const box = new Box3(), point = new Vector3(), { duration } = clip.timeline;
-    for (let i = 0; i < 9; ++i) {
-      const rows = clip.rowsAt((duration * i) / 8);
+  /// Of the poses at some times, as the camera sees them.
+  #boxOf(clip, times) {
+    const box = new Box3(), point = new Vector3();
+    for (const time of times) {
+      const rows = clip.rowsAt(time);
       for (let r = 0; r < rows.length; r += 3) box.expandByPoint(point.fromArray(rows, r).applyMatrix4(this.root.matrixWorld));
     }
-    box.getBoundingSphere(this.sphere);
-    if (!(this.sphere.radius > 0)) this.sphere.radius = 1;
-    const { center, radius } = this.sphere;
+    return box;
+  }
+
+  /// Looks at all of a clip from the front, from a little above.
+  frame(clip) {
+    const box = this.#boxOf(clip, Array.from({ length: 9 }, (_, i) => (clip.timeline.duration * i) / 8)), { center, radius } = sphereOf(box);
+    Object.assign(this, { box, center, radius });
     this.floor.position.set(center.x, box.min.y - 0.002 * radius, center.z);
     this.floor.scale.setScalar(12 * radius);
     this.key.position.copy(center).addScaledVector(new Vector3(0.45, 1.3, 0.75).normalize(), 4 * radius);
@@ -115,32 +141,17 @@ export class Stage {
     this.home();
   }
   home() {
-    this.#place(this.camera, this.#rects()[0]);
-    this.controls.target.copy(this.sphere.center);
-    Object.assign(this.controls, { minDistance: 0.05 * this.sphere.radius, maxDistance: 20 * this.sphere.radius });
+    place(this.camera, this.places()[0], this.box);
+    this.controls.target.copy(this.center);
+    Object.assign(this.controls, { minDistance: 0.05 * this.radius, maxDistance: 20 * this.radius });
     this.controls.update();
     this.dirty = true;
   }
-  #place(camera, { width, height }) {
-    const { center, radius } = this.sphere, half = (camera.fov * Math.PI) / 360;
-    camera.aspect = width / height;
-    camera.near = radius / 100;
-    camera.far = 40 * radius;
-    camera.position.copy(center).addScaledVector(home, (0.86 * radius) / Math.sin(half) / Math.min(1, camera.aspect));
-    camera.lookAt(center);
-    camera.updateProjectionMatrix();
-  }
-
   /// Where the panes are, CSS pixels from the canvas' upper left corner.
-  #rects() {
+  places() {
     const { clientWidth: W, clientHeight: H } = this.canvas, n = this.panes.length, aside = W >= H;
     return this.panes.map((pane, i) => aside ? { pane, x: (i * W) / n, y: 0, width: W / n, height: H }
       : { pane, x: 0, y: (i * H) / n, width: W, height: H / n });
-  }
-
-  /// Where labels go.
-  places() {
-    return this.#rects();
   }
 
   #only(pane) {
@@ -155,7 +166,7 @@ export class Stage {
     if (size.x !== canvas.clientWidth || size.y !== canvas.clientHeight) renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
     renderer.info.reset();
     renderer.setScissorTest(true);
-    for (const { pane, x, y, width, height } of this.#rects()) {
+    for (const { pane, x, y, width, height } of this.places()) {
       this.#only(pane);
       renderer.setViewport(x, canvas.clientHeight - y - height, width, height);
       renderer.setScissor(x, canvas.clientHeight - y - height, width, height);
@@ -170,7 +181,7 @@ export class Stage {
   thumbnail(pane, time, context, { x, y, width, height }) {
     const { renderer, canvas } = this, ratio = renderer.getPixelRatio(), camera = new PerspectiveCamera(28, width / height);
     const was = this.time, w = Math.min(width, canvas.clientWidth), h = Math.min(height, canvas.clientHeight);
-    this.#place(camera, { width: w, height: h });
+    place(camera, { width: w, height: h }, this.#boxOf(this.meshes.get(pane).clip, [time]));
     this.seek(time);
     this.#only(pane);
     for (const { line, dot } of this.marks.values()) line.visible = dot.visible = false;
@@ -185,7 +196,7 @@ export class Stage {
 
   /// The vertex under a point: { pane, row, clip, point }, or null.
   pick(x, y) {
-    const rect = this.#rects().find((r) => x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height);
+    const rect = this.places().find((r) => x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height);
     const mesh = rect && this.meshes.get(rect.pane);
     if (!mesh) return null;
     const ray = new Raycaster();

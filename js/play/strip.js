@@ -39,8 +39,8 @@ export class Strip {
     const context = fitted(this.strip), { clientWidth: W, clientHeight: H } = this.strip;
     context.clearRect(0, H - 3, W, 3);
     context.fillStyle = colour('--line');
-    for (const { firstFrame, frameCount } of pieces)
-      context.fillRect((firstFrame / F) * W, H - 3, Math.max(1, (frameCount / F) * W - 1), 3);
+    const at = (f) => Math.round((f / F) * W);
+    for (const { firstFrame: f, frameCount } of pieces) context.fillRect(at(f), H - 3, Math.max(1, at(f + frameCount) - at(f) - 1), 3);
   }
 
   /// Draws the next picture that is missing; false: there is none.

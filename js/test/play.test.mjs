@@ -71,6 +71,13 @@ test('play beside the original: what the card shows is the decoder\'s, and the e
   assert.ok(Math.abs(worst / encoded.max_error - 1) < 1e-4, `${worst}, ${JSON.stringify(encoded)}`);
   assert.deepEqual(await page.evaluate(() => meshreel.stage.panes), ['original', 'decoded', 'error']);
   assert.match(await page.textContent('#unit'), /error, units/);
+  assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll('#ticks span')].map((tick) => parseFloat(tick.textContent.replace('≥ ', '')))),
+    await page.evaluate(() => [0, 0.5, 1].map((share) => +(share * meshreel.heat.top).toPrecision(3))));
+  assert.ok(await page.evaluate(() => { // error over time, as high as it is
+    const { width, height } = document.getElementById('curve'), { data } = document.getElementById('curve').getContext('2d').getImageData(0, 0, width, height);
+    const { largest } = meshreel.heat, x = Math.round((largest.indexOf(Math.max(...largest)) / (largest.length - 1)) * (width - 1));
+    return [17, 18, 19].some((y) => data[4 * (y * width + x) + 3] > 100);
+  }));
   await page.click('[data-panes=error]');
   const { width, height } = await (await page.$('#view')).boundingBox();
   const vertices = await page.evaluate(([w, h]) => { // a click somewhere on the mesh
@@ -79,6 +86,12 @@ test('play beside the original: what the card shows is the decoder\'s, and the e
   }, [width, height]);
   assert.deepEqual(vertices, ['decoded', 'original']);
   assert.match(await page.textContent('#tip'), /vertex \d+\n.*\nerror /);
+  const astray = await page.evaluate(() => { // the paths are where the vertex is in every frame
+    const { picked: { vertex }, stage: { marks }, shown, original } = meshreel, frames = ({ pieces }) => pieces.flatMap((piece) => [...piece.frames]);
+    const far = (path, all) => Math.max(...path.map((x, i) => Math.abs(x - all[3 * 600 * Math.floor(i / 3) + 3 * vertex + (i % 3)])));
+    return Math.max(far(marks.get('decoded').path, frames(shown)), far(marks.get('original').path, frames(original)));
+  });
+  assert.ok(astray < 1e-4, `${astray}`);
   assert.deepEqual(page.complaints, []);
   await page.close();
 });
@@ -108,6 +121,35 @@ test('play, by keys alone: time goes on, turns, stands still, and is told to who
   await page.waitForFunction(() => meshreel.level === 1 && meshreel.state === 'ready');
   assert.ok(await page.evaluate(() => meshreel.shown.clip.head.vertexCount < meshreel.shown.head.vertexCount && meshreel.shown.clip.head.frameCount === 12));
   assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
+test('on a phone, in the dark, by touch: all is in the window, drawn, told, and turns under a finger', { skip }, async () => {
+  const page = await opened(await playing(golden('reel_v1_segments_walker')), { width: 390, height: 780, colorScheme: 'dark', hasTouch: true, isMobile: true });
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
+  assert.deepEqual(await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.scrollHeight]), [390, 780]);
+  await page.waitForFunction(() => !meshreel.strip.draw(meshreel.stage, 'decoded'));
+  const strip = await page.evaluate(() => {
+    const { width, height } = document.getElementById('strip'), { data } = document.getElementById('strip').getContext('2d').getImageData(0, 0, width, height);
+    const filled = (x, y) => data[4 * (y * width + x) + 3] > 0, columns = [...Array(width).keys()], cell = Math.round(0.95 * height);
+    const drawn = (x) => [...Array(height - 5).keys()].some((y) => filled(x, y));
+    const cells = Array.from({ length: Math.ceil(width / cell) }, (_, i) => columns.slice(i * cell, (i + 1) * cell));
+    return { pictures: cells.filter((cell) => cell.some(drawn)).length, cells: cells.length, gaps: columns.filter((x) => x > 0 && filled(x - 1, height - 2) && !filled(x, height - 2)).length };
+  });
+  assert.ok(strip.pictures >= strip.cells - 1 && strip.cells > 5 && strip.gaps === 3, JSON.stringify(strip)); // three segments
+  await page.tap('#facts');
+  assert.match(await page.textContent('#figures'), /V300triangles T596frames F12.*K\d.*segments loaded3.*file.*kB.*bits.*card.*frame time/);
+  const spot = await page.evaluate(() => {
+    for (let y = 200; y < 500; y += 5) for (let x = 100; x < 300; x += 5) if (meshreel.stage.pick(x, y)) return { x, y };
+    return null;
+  });
+  await page.tap('#view', { position: spot });
+  assert.match(await page.textContent('#tip'), /^vertex \d+\n/);
+  assert.equal(await page.evaluate(() => meshreel.stage.marks.get('decoded').path.length), 3 * 12);
+  const before = await page.evaluate(() => meshreel.stage.camera.position.toArray()), finger = await page.context().newCDPSession(page);
+  for (const [type, x] of [['touchStart', 100], ['touchMove', 150], ['touchMove', 250], ['touchEnd']])
+    await finger.send('Input.dispatchTouchEvent', { type, touchPoints: x ? [{ x, y: 400 }] : [] });
+  await page.waitForFunction((was) => Math.hypot(...meshreel.stage.camera.position.toArray().map((x, i) => x - was[i])) > 0.1, before);
   await page.close();
 });
 
@@ -200,7 +242,7 @@ test('it looks as it did: light, dark, normals', { skip }, async () => {
   for (const [name, keys] of [['light', []], ['dark', ['d']], ['normals', ['d', 'n']]]) {
     for (const key of keys) await page.keyboard.press(key);
     await page.evaluate(() => meshreel.stage.render());
-    const picture = await page.screenshot({ clip: { x: 8, y: 130, width: 344, height: 150 } });
+    const picture = await page.screenshot({ clip: { x: 8, y: 112, width: 344, height: 176 } });
     const place = new URL(`reference/${name}.png`, import.meta.url);
     if (process.env.RENEW) writeFileSync(place, picture);
     const share = await difference(page, picture, readFileSync(place));
