@@ -1,6 +1,6 @@
 /// Buttons, keys, pointers, colours and the size of the window.
 // SPDX-License-Identifier: MIT
-import { $ } from './main.js';
+import { $ } from './element.js';
 
 const option = (value, text) => Object.assign(document.createElement('option'), { value, textContent: text });
 

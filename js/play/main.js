@@ -4,14 +4,15 @@ import { LoopOnce, LoopPingPong, LoopRepeat } from 'three';
 
 import { readBack } from '../src/readback.js';
 import { ReelPlayer } from '../src/player.js';
+import { Timeline } from '../src/timeline.js';
 import { controls } from './controls.js';
+import { $ } from './element.js';
 import { figures, lengthText } from './figures.js';
 import { colourOf, distances, heatMaterial, showHeat } from './heat.js';
 import { clipsOf, readManifest } from './source.js';
 import { Stage } from './stage.js';
 import { Strip } from './strip.js';
 
-export const $ = (id) => document.getElementById(id);
 const loops = [[LoopRepeat, '↻', 'loop'], [LoopPingPong, '⇋', 'to and fro'], [LoopOnce, '→', 'once']];
 const axes = ['y', 'z', 'x'];
 
@@ -96,8 +97,7 @@ class Page {
     this.stage.frame(clip);
     this.player = new ReelPlayer(clip.timeline, (time) => this.seek(time));
     this.player.addEventListener('finished', () => this.tellState());
-    const { times, loop, fps } = this.shown.head, whole = { times, start: times[0], duration: times.at(-1) - times[0] };
-    if (loop && times.length > 1) whole.duration += fps > 0 ? 1 / fps : whole.duration / (times.length - 1);
+    const { times, loop, fps } = this.shown.head, whole = new Timeline(times, loop, fps);
     this.strip.begin(whole);
     this.setSpeed(this.speed);
     this.player.loop = loops[this.loop][0];
