@@ -1,28 +1,17 @@
 /// meshreel/webgpu in a browser: by WebGPU where Chromium has an adapter, and by WebGL 2 behind the same renderer.
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { browse, missing, serve } from './page.mjs';
+import { missing, stagedPage } from './page.mjs';
 
 const golden = (name) => `/tests/golden/reel_v1_${name}.reel`, walker = golden('fast_walker');
 const backends = [['WebGPU', false], ['WebGL 2 behind WebGPURenderer', true]];
-let server, browser, page, adapter = false;
-const skip = missing || false, complaints = [];
-before(async () => {
-  if (skip) return;
-  server = await serve();
-  browser = await browse();
-  page = await browser.newPage();
-  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
-  page.on('pageerror', (error) => complaints.push(error.message));
-  await page.goto(`${server.address}/empty.html`);
+const skip = missing || false;
+let page, complaints, adapter = false;
+stagedPage('/js/test/nodes_stage.js', async (...made) => {
+  [page, complaints] = made;
   adapter = await page.evaluate(async () => !!(await navigator.gpu?.requestAdapter()));
-  await page.evaluate(async () => (window.stage = await import('/js/test/nodes_stage.js')));
-});
-after(async () => {
-  await browser?.close();
-  server?.close();
 });
 
 /// The same test of both; without an adapter that of WebGPU is skipped by name.

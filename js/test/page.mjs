@@ -3,6 +3,7 @@
 import { createServer } from 'node:http';
 import { existsSync, readFileSync, statSync } from 'node:fs';
 import { extname, normalize } from 'node:path';
+import { after, before } from 'node:test';
 import { fileURLToPath } from 'node:url';
 
 import { chromium } from 'playwright-core';
@@ -49,4 +50,25 @@ export async function browse() {
       '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--js-flags=--expose-gc'],
   });
   return browser;
+}
+
+/// Around a file's tests, unless they are skipped: an empty page, given to take() with what it complains of, with a module of ours as
+/// window.stage.
+export function stagedPage(module, take) {
+  let server, browser;
+  before(async () => {
+    if (missing) return;
+    server = await serve();
+    browser = await browse();
+    const page = await browser.newPage(), complaints = [];
+    page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
+    page.on('pageerror', (error) => complaints.push(error.message));
+    await page.goto(`${server.address}/empty.html`);
+    await page.evaluate(async (path) => (window.stage = await import(path)), module);
+    await take(page, complaints);
+  });
+  after(async () => {
+    await browser?.close();
+    server?.close();
+  });
 }

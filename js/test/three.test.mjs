@@ -2,27 +2,14 @@
 // SPDX-License-Identifier: MIT
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { browse, missing, serve } from './page.mjs';
+import { missing, stagedPage } from './page.mjs';
 
 const walker = '/tests/golden/reel_v1_fast_walker.reel', cloth = '/tests/golden/reel_v1_range.reel';
-let server, browser, page;
-const skip = missing || false, complaints = [];
-before(async () => {
-  if (skip) return;
-  server = await serve();
-  browser = await browse();
-  page = await browser.newPage();
-  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
-  page.on('pageerror', (error) => complaints.push(error.message));
-  await page.goto(`${server.address}/empty.html`);
-  await page.evaluate(async () => (window.stage = await import('/js/test/stage.js')));
-});
-after(async () => {
-  await browser?.close();
-  server?.close();
-});
+const skip = missing || false;
+let page, complaints;
+stagedPage('/js/test/stage.js', (...made) => ([page, complaints] = made));
 
 test('posed on the GPU, every stored frame is the decoder\'s to 1e-5 of the diagonal, to the end and back', { skip }, async () => {
   for (const address of [walker, cloth]) {
