@@ -20,6 +20,7 @@ rooms=(
     src/meshreel/codecs/*.cpp
 )
 encoder='connectivity/decimation_plan|codecs/(choice|number_source)\.'
+[ "${1:-}" != --sources ] || { printf '%s\n' "${rooms[@]}" | grep -vE "$encoder"; exit; } # for the fuzzer, fuzz/CMakeLists.txt
 others='codecs/(average|basis|coddyac|decimated|lossless|lsp|pca_codec|rbfp)\.|coding/(huffman|number_line)\.|predict/(lsp|rbf)\.|connectivity/decimation\.'
 
 # build NAME LEAVE-OUT DEFINES...: one translation unit, so that the linker sees all of it at once.
