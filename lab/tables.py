@@ -194,10 +194,23 @@ def idle_ideas():
 
 def not_measured(name):
     """What a plan names and its results lack; nothing where they lack nothing."""
-    rows, wanted = releases.read(name), plan.read(os.path.join(ROOT, "lab/plans", name + ".toml"))
-    lacking = lambda names, key: [word for word in names if word not in {row[key] for row in rows}]
-    found = lacking((coding["name"] for coding in wanted["coding"]), "coding") + lacking(wanted["sequence"], "sequence")
-    return [f"In the plan, but not measured yet: {', '.join(found)}."] if found else []
+    wanted = plan.read(os.path.join(ROOT, "lab/plans", name + ".toml"))
+    found = lacking(releases.read(name), [coding["name"] for coding in wanted["coding"]], wanted["sequence"])
+    return [f"In the plan, but not measured yet: {'; '.join(found)}."] if found else []
+
+
+def lacking(rows, codings, sequences):
+    """Codings that there are nowhere, sequences without any; of what is there in part, the lesser part."""
+    there = {(row["coding"], row["sequence"]) for row in rows}
+    nowhere = [name for name in codings if not any((name, sequence) in there for sequence in sequences)]
+    found, rest = list(nowhere), [name for name in codings if name not in nowhere]
+    for sequence in sequences:
+        done = [name for name in rest if (name, sequence) in there]
+        undone = [name for name in rest if name not in done]
+        if undone:
+            found.append(sequence if not done else f"{', '.join(undone)} on {sequence}" if len(undone) < len(done) else
+                         f"all but {', '.join(done)} on {sequence}")
+    return found
 
 
 def made_by(name):

@@ -48,6 +48,10 @@ class Tables(unittest.TestCase):
         rows = [{"release": release, "sequence": "cow", "encode": e, "decode": d} for release, e, d in (("2", "4", "40"), ("1", "3", "30"))]
         self.assertEqual(tables.speed_releases(rows, ["2", "1"])[2], "| cow | 4 | 3 | 40 | 30 |")
 
+    def test_what_is_not_measured_is_told_by_its_lesser_part(self):
+        rows = [{"coding": coding, "sequence": sequence} for coding, sequence in ("aX", "aY", "bY", "cY", "aZ", "bZ")]
+        self.assertEqual(tables.lacking(rows, "abcd", "WXYZ"), ["d", "W", "all but a on X", "c on Z"])
+
     def test_what_stands_between_the_comments_is_replaced_and_nothing_else(self):
         page = "before\n<!-- made by lab/tables.py: x -->\nold\n<!-- end -->\nafter\n"
         once = tables.filled(page, {"x": lambda: ["| new |"]})
