@@ -5,8 +5,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "meshreel/base/random.h"
+#include "meshreel/linalg/product.h"
 
 namespace meshreel::linalg {
 
@@ -56,15 +58,39 @@ std::vector<double> mean_trajectory(MatrixView<const float> frames)
     return mean;
 }
 
-/// G += A^T A, lower tiles only, one task a tile.
-void add_gram_of_columns(const Columns& A, Columns& G, Threads threads)
+/// Of an Eigen matrix, [rows x cols]; and of its transpose.
+Factor rows_of(const Columns& matrix)
 {
-    const Index tiles = ceil_div(A.cols(), tile);
+    return {matrix.data(), static_cast<std::size_t>(matrix.rows()), 1, static_cast<std::size_t>(matrix.rows())};
+}
+Factor columns_of(const Columns& matrix)
+{
+    return {matrix.data(), static_cast<std::size_t>(matrix.cols()), static_cast<std::size_t>(matrix.rows()), 1};
+}
+
+Factor part_of(const Factor& factor, Index first, Index count)
+{
+    return {factor.data + static_cast<std::size_t>(first) * factor.along, static_cast<std::size_t>(count), factor.along,
+            factor.across};
+}
+
+/// A B^T, depth terms each.
+Columns product(const Factor& A, const Factor& B, std::size_t depth)
+{
+    Columns C = Columns::Zero(static_cast<Index>(A.count), static_cast<Index>(B.count));
+    add_product(A, B, depth, C.data(), A.count);
+    return C;
+}
+
+/// G += A A^T, lower tiles only, one task a tile.
+void add_gram(const Factor& A, std::size_t depth, Columns& G, Threads threads)
+{
+    const auto size = static_cast<Index>(A.count), tiles = ceil_div(size, tile);
     parallel_for(static_cast<std::size_t>(tiles * tiles), threads, [&](std::size_t task) {
         const Index i = static_cast<Index>(task) / tiles * tile, j = static_cast<Index>(task) % tiles * tile;
         if (j > i) return;
-        const Index rows = std::min(tile, A.cols() - i), cols = std::min(tile, A.cols() - j);
-        G.block(i, j, rows, cols).noalias() += A.middleCols(i, rows).transpose() * A.middleCols(j, cols);
+        add_product(part_of(A, i, std::min(tile, size - i)), part_of(A, j, std::min(tile, size - j)), depth, &G(i, j),
+                    A.count);
     });
 }
 
@@ -75,7 +101,7 @@ Columns gram_of_rows(MatrixView<const float> frames, std::span<const double> mea
     Columns G = Columns::Zero(n, n);
     for (std::size_t first = 0; first < vertex_count(frames); first += block) {
         const Columns X = trajectories(frames, mean, first, std::min(block, vertex_count(frames) - first));
-        add_gram_of_columns(X.transpose(), G, threads);
+        add_gram(rows_of(X), static_cast<std::size_t>(X.cols()), G, threads);
     }
     return G;
 }
@@ -84,7 +110,7 @@ Columns gram_of_rows(MatrixView<const float> frames, std::span<const double> mea
 Columns gram_of_trajectories(const Columns& X, Threads threads)
 {
     Columns G = Columns::Zero(X.cols(), X.cols());
-    add_gram_of_columns(X, G, threads);
+    add_gram(columns_of(X), static_cast<std::size_t>(X.rows()), G, threads);
     return G;
 }
 
@@ -100,20 +126,39 @@ Eigenpairs last_pairs_first(const Eigen::SelfAdjointEigenSolver<Columns>& solver
     return pairs;
 }
 
-Columns orthonormal(const Columns& Y)
+Columns orthonormal_block(const Columns& Y)
 {
     const Eigen::HouseholderQR<Columns> qr(Y);
     return qr.householderQ() * Columns::Identity(Y.rows(), Y.cols());
 }
 
+/// Block Gram-Schmidt, each block cleared of those before it twice: nearly all of the work is in products.
+Columns orthonormal(const Columns& Y)
+{
+    constexpr Index width = 32;
+    const auto n = static_cast<std::size_t>(Y.rows());
+    Columns Q(Y.rows(), Y.cols());
+    for (Index first = 0; first < Y.cols(); first += width) {
+        Columns part = Y.middleCols(first, std::min(width, Y.cols() - first));
+        for (int turn = 0; turn < 2; ++turn) {
+            const Columns along = -product(part_of(columns_of(Q), 0, first), columns_of(part), n);
+            add_product(rows_of(Q), columns_of(along), static_cast<std::size_t>(first), part.data(), n);
+            part = orthonormal_block(part);
+        }
+        Q.middleCols(first, part.cols()) = part;
+    }
+    return Q;
+}
+
 /// S Y for symmetric S, one task a strip of columns.
 Columns apply(const Columns& S, const Columns& Y, Threads threads)
 {
-    constexpr Index strip = 32;
-    Columns Z(Y.rows(), Y.cols());
+    constexpr Index strip = 72;
+    Columns Z = Columns::Zero(Y.rows(), Y.cols());
     parallel_for(static_cast<std::size_t>(ceil_div(Y.cols(), strip)), threads, [&](std::size_t task) {
         const Index first = static_cast<Index>(task) * strip, count = std::min(strip, Y.cols() - first);
-        Z.middleCols(first, count).noalias() = S * Y.middleCols(first, count);
+        add_product(rows_of(S), part_of(columns_of(Y), first, count), static_cast<std::size_t>(S.cols()), &Z(0, first),
+                    static_cast<std::size_t>(Z.rows()));
     });
     return Z;
 }
@@ -123,15 +168,16 @@ Columns apply(const Columns& S, const Columns& Y, Threads threads)
 Eigenpairs leading_pairs(const Columns& S, Index count, Threads threads)
 {
     constexpr Index spare = 24;
-    constexpr int turns = 10;
+    constexpr int turns = 6;
+    const auto n = static_cast<std::size_t>(S.rows());
     Random random(1);
     Columns Y(S.rows(), std::min(S.rows(), count + spare));
     for (Index i = 0; i < Y.size(); ++i) Y.data()[i] = random.uniform(-1.0, 1.0);
     for (int turn = 0; turn < turns; ++turn) Y = apply(S, orthonormal(Y), threads);
     const Columns Q = orthonormal(Y);
-    const Columns small = Q.transpose() * apply(S, Q, threads);
+    const Columns SQ = apply(S, Q, threads), small = product(columns_of(Q), columns_of(SQ), n);
     Eigenpairs pairs = last_pairs_first(Eigen::SelfAdjointEigenSolver<Columns>(small), count);
-    pairs.vectors = Q * pairs.vectors;
+    pairs.vectors = product(rows_of(Q), columns_of(pairs.vectors), static_cast<std::size_t>(Q.cols()));
     return pairs;
 }
 
@@ -167,22 +213,21 @@ Pca pca_of_trajectories(MatrixView<const float> frames, std::size_t max_componen
     const std::size_t K = rank_of(pairs.values);
     pca.basis = Matrix<double>(K, n);
     Eigen::Map<RowMajor> B(pca.basis.values.data(), static_cast<Index>(K), static_cast<Index>(n));
-    const auto leading = pairs.vectors.leftCols(static_cast<Index>(K));
+    const Factor leading = part_of(columns_of(pairs.vectors), 0, static_cast<Index>(K));
     for (std::size_t k = 0; k < K; ++k) pca.singular_values.push_back(std::sqrt(pairs.values[k]));
     if (rows_are_shorter)
-        B = leading.transpose();
+        B = pairs.vectors.leftCols(static_cast<Index>(K)).transpose();
     else
-        B.transpose() = orthonormal(X * leading);
+        B.transpose() = orthonormal(product(rows_of(X), leading, N));
     return pca;
 }
 
 Projection project(MatrixView<const float> frames, std::span<const double> mean, MatrixView<const double> basis,
                    Threads threads)
 {
-    const auto K = static_cast<Index>(basis.rows), n = static_cast<Index>(basis.cols);
+    const auto K = static_cast<Index>(basis.rows);
     const std::size_t N = vertex_count(frames), tasks = (N + block - 1) / block;
-    const Eigen::Map<const RowMajor> B(basis.data, K, n);
-    const Eigen::LDLT<Columns> normal(B * B.transpose());
+    const Eigen::LDLT<Columns> normal(product(rows_of(basis), rows_of(basis), basis.cols));
     Projection result{Matrix<double>(N, basis.rows), 0.0};
     std::vector<double> errors(tasks);
     parallel_for(tasks, threads, [&](std::size_t task) {
@@ -190,7 +235,7 @@ Projection project(MatrixView<const float> frames, std::span<const double> mean,
         const Columns X = trajectories(frames, mean, first, count);
         errors[task] = X.squaredNorm();
         if (K == 0) return;
-        const Columns inner = B * X, C = normal.solve(inner);
+        const Columns inner = product(rows_of(basis), columns_of(X), basis.cols), C = normal.solve(inner);
         errors[task] -= inner.cwiseProduct(C).sum();
         Eigen::Map<RowMajor>(result.C.values.data() + first * basis.rows, static_cast<Index>(count), K) = C.transpose();
     });
@@ -200,11 +245,11 @@ Projection project(MatrixView<const float> frames, std::span<const double> mean,
 
 double squared_distance(MatrixView<const double> C, MatrixView<const double> D, MatrixView<const double> basis)
 {
-    const auto K = static_cast<Index>(basis.rows), N = static_cast<Index>(C.rows);
-    if (K == 0) return 0.0;
-    const Eigen::Map<const RowMajor> B(basis.data, K, static_cast<Index>(basis.cols));
-    const RowMajor difference = Eigen::Map<const RowMajor>(C.data, N, K) - Eigen::Map<const RowMajor>(D.data, N, K);
-    return ((B * B.transpose()).cwiseProduct(difference.transpose() * difference)).sum();
+    if (basis.rows == 0) return 0.0;
+    Matrix<double> difference(C.rows, C.cols);
+    std::ranges::transform(C.values(), D.values(), difference.values.begin(), std::minus());
+    const Factor off = columns_of(difference.view());
+    return product(rows_of(basis), rows_of(basis), basis.cols).cwiseProduct(product(off, off, C.rows)).sum();
 }
 
 std::vector<double> mean_absolute(MatrixView<const double> C)
