@@ -22,8 +22,8 @@ constexpr std::array<EffortRow, most_effort> effort_rows{{
     {4, 1, 1},
     {4, 3, 1},
     {3, 4, 1},
-    {3, 5, 1},
-    {3, 5, 3},
+    {2, 5, 1},
+    {1, 5, 5},
 }};
 
 } // namespace

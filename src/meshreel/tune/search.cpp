@@ -129,8 +129,7 @@ public:
         if (!problem_.knobs.empty()) {
             MESHREEL_TRY(Attempt near, approach(settings, line));
             MESHREEL_CHECK(try_lengths(near));
-            for (int round = 0; round < problem_.rounds; ++round)
-                for (const Knob& knob : problem_.knobs) MESHREEL_CHECK(descend(near, knob));
+            MESHREEL_CHECK(vary(near));
             line.restart();
             return land(std::move(near), line);
         }
@@ -199,8 +198,24 @@ private:
         return pays;
     }
 
-    /// Moves along a knob for as long as it pays.
-    Status descend(Attempt& best, const Knob& knob)
+    /// All knobs, round after round; nearer by where a round moved none.
+    Status vary(Attempt& best)
+    {
+        double nearness = 1.0;
+        for (int round = 0; round < problem_.rounds; ++round) {
+            bool moved = false;
+            for (Knob knob : problem_.knobs) {
+                knob.factor = std::pow(knob.factor, 1.0 / nearness);
+                MESHREEL_TRY(const bool by_this, descend(best, knob));
+                moved = moved || by_this;
+            }
+            if (!moved) nearness *= 2;
+        }
+        return Ok{};
+    }
+
+    /// Moves along a knob for as long as it pays; whether it did.
+    Result<bool> descend(Attempt& best, const Knob& knob)
     {
         constexpr int most_moves = 3;
         constexpr double worth_it = 0.001;
@@ -217,9 +232,9 @@ private:
                 best = std::move(attempt);
                 moved = true;
             }
-            if (moved) break;
+            if (moved) return true;
         }
-        return Ok{};
+        return false;
     }
 
     /// From an attempt somewhere to a verified one just below the limit.
