@@ -10,8 +10,8 @@
 #include "cli/console.h"
 #include "cli/source.h"
 #include "meshreel/io/io.h"
-#include "meshreel/meshreel.h"
 #include "meshreel/mesh/animation.h"
+#include "meshreel/meshreel.h"
 
 namespace meshreel::cli {
 

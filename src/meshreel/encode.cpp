@@ -14,6 +14,7 @@
 #include "meshreel/connectivity/topology.h"
 #include "meshreel/container/package.h"
 #include "meshreel/goal.h"
+#include "meshreel/likely_step.h"
 #include "meshreel/mesh/reorder.h"
 #include "meshreel/mesh/weld.h"
 #include "meshreel/meshreel.h"
@@ -108,7 +109,7 @@ private:
             std::erase_if(problem.knobs,
                           [](const tune::Knob& knob) { return knob.setting == &codecs::Settings::linear; });
         }
-        start.step = likely_step(start, segments_.spectra());
+        start.step = likely_step(figures(segments_.spectra()), allowed_, start);
         MESHREEL_TRY(start, opening_fast(start));
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
         if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
@@ -146,8 +147,9 @@ private:
         if (options_.segment != 0 || codec_.exact() || no_step) return Ok{};
         MESHREEL_TRY(const SegmentSample sample, SegmentSample::take(source_, topology_.original_of));
         codecs::Settings settings = common(plan_.start);
-        settings.step = options_.quality.step ? *options_.quality.step * diagonal()
-                                              : likely_step(settings, std::array{sample.spectrum(0, F)});
+        settings.step = options_.quality.step
+                            ? *options_.quality.step * diagonal()
+                            : likely_step(figures(std::array{sample.spectrum(0, F)}), allowed_, settings);
         const SegmentCosts costs(sample, {settings.step, settings.basis_ratio});
         segments_.cut(paying_segments(F, longest, costs));
         return Ok{};
@@ -156,11 +158,9 @@ private:
     /// |A - E(A)| of (5.2), over the vertices that the codec sees.
     double norm() const { return norm_of(segments_.spectra()); }
 
-    static double norm_of(std::span<const Spectrum> spectra)
+    MotionFigures figures(std::span<const Spectrum> spectra) const
     {
-        double energy = 0;
-        for (const Spectrum& spectrum : spectra) energy += spectrum.energy;
-        return std::sqrt(energy);
+        return {surface().vertex_count, diagonal(), mean_edge_, spectra};
     }
 
     double diagonal() const { return diagonal_; }
@@ -356,37 +356,6 @@ private:
     {
         const double largest_coefficient = diagonal() * std::sqrt(static_cast<double>(source_.frame_count()));
         return largest_coefficient / coding::Quantiser::largest_level;
-    }
-
-    /// The step at which the error should be about what is allowed.
-    double likely_step(const codecs::Settings& settings, std::span<const Spectrum> spectra) const
-    {
-        constexpr double kg_of_sizes = 0.3, peak = 5.0, smoothness = 5.0; // guesses: an attempt corrects them
-        const double size = norm_of(spectra);
-        double rms = limits_size() ? kg_of_sizes / 100 * size / std::sqrt(points()) : no_limit;
-        rms = std::min({rms, allowed_.kg / 100 * size / std::sqrt(points()), allowed_.rms, allowed_.max_error / peak});
-        if (std::isfinite(allowed_.sted)) rms = std::min(rms, smoothness * allowed_.sted * mean_edge_);
-        if (!(rms > 0)) return diagonal() * 1e-4;
-        double fine = std::log(1e-9 * diagonal()), coarse = std::log(diagonal());
-        for (int i = 0; i < 40; ++i) {
-            const double middle = 0.5 * (fine + coarse);
-            (likely_error(settings, spectra, std::exp(middle)) < rms * rms * points() ? fine : coarse) = middle;
-        }
-        return std::exp(fine);
-    }
-
-    /// The squared error at a step: of coefficients and basis, less than D^2 / 12 a value as most levels are 0; and what
-    /// the components left out hold, of those prepared.
-    double likely_error(const codecs::Settings& settings, std::span<const Spectrum> spectra, double step) const
-    {
-        const double W = surface().vertex_count, basis = settings.basis_ratio * settings.basis_ratio;
-        double error = 0;
-        for (const Spectrum& spectrum : spectra)
-            for (double value : spectrum.singular_values)
-                error += value < settings.truncation * step * std::sqrt(W)
-                             ? value * value
-                             : (W + 3 * static_cast<double>(spectrum.frame_count) * basis) * step * step / 20;
-        return error;
     }
 
     /// payload_of(s): of segment s, asked for in their order; bytes, or a view of them.

@@ -24,7 +24,7 @@ TEST(Product, AddsWhatTermAfterTermGivesBitForBitInRunsOf256)
          {std::array<std::size_t, 3>{1, 1, 1}, {16, 6, 256}, {17, 7, 257}, {130, 125, 600}}) {
         const Matrix<double> A = random_matrix(m, depth, 1), B = random_matrix(depth, n, 2);
         Matrix<double> found(n, m), expected(n, m);
-        add_product(rows_of(A.view()), columns_of(B.view()), depth, found.values.data(), m);
+        add_product(rows_of(A.view()), columns_of(B.view()), depth, {found.values.data(), m});
         for (std::size_t i = 0; i < m; ++i)
             for (std::size_t j = 0; j < n; ++j)
                 for (std::size_t first = 0; first < depth; first += 256) {
@@ -40,7 +40,7 @@ TEST(Product, LeavesWhatLiesBetweenTheColumnsAlone)
 {
     const Matrix<double> A = random_matrix(3, 5, 3);
     std::vector<double> C(8, 7.0);
-    add_product(rows_of(A.view()), {A.values.data(), 2, A.cols, 1}, 5, C.data(), 4);
+    add_product(rows_of(A.view()), {A.values.data(), 2, A.cols, 1}, 5, {C.data(), 4});
     EXPECT_EQ(C[3], 7.0);
     EXPECT_EQ(C[7], 7.0);
 }

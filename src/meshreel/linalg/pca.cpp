@@ -78,7 +78,7 @@ Factor part_of(const Factor& factor, Index first, Index count)
 Columns product(const Factor& A, const Factor& B, std::size_t depth)
 {
     Columns C = Columns::Zero(static_cast<Index>(A.count), static_cast<Index>(B.count));
-    add_product(A, B, depth, C.data(), A.count);
+    add_product(A, B, depth, {C.data(), A.count});
     return C;
 }
 
@@ -89,8 +89,8 @@ void add_gram(const Factor& A, std::size_t depth, Columns& G, Threads threads)
     parallel_for(static_cast<std::size_t>(tiles * tiles), threads, [&](std::size_t task) {
         const Index i = static_cast<Index>(task) / tiles * tile, j = static_cast<Index>(task) % tiles * tile;
         if (j > i) return;
-        add_product(part_of(A, i, std::min(tile, size - i)), part_of(A, j, std::min(tile, size - j)), depth, &G(i, j),
-                    A.count);
+        add_product(part_of(A, i, std::min(tile, size - i)), part_of(A, j, std::min(tile, size - j)), depth,
+                    {&G(i, j), A.count});
     });
 }
 
@@ -142,7 +142,7 @@ Columns orthonormal(const Columns& Y)
         Columns part = Y.middleCols(first, std::min(width, Y.cols() - first));
         for (int turn = 0; turn < 2; ++turn) {
             const Columns along = -product(part_of(columns_of(Q), 0, first), columns_of(part), n);
-            add_product(rows_of(Q), columns_of(along), static_cast<std::size_t>(first), part.data(), n);
+            add_product(rows_of(Q), columns_of(along), static_cast<std::size_t>(first), {part.data(), n});
             part = orthonormal_block(part);
         }
         Q.middleCols(first, part.cols()) = part;
@@ -157,8 +157,8 @@ Columns apply(const Columns& S, const Columns& Y, Threads threads)
     Columns Z = Columns::Zero(Y.rows(), Y.cols());
     parallel_for(static_cast<std::size_t>(ceil_div(Y.cols(), strip)), threads, [&](std::size_t task) {
         const Index first = static_cast<Index>(task) * strip, count = std::min(strip, Y.cols() - first);
-        add_product(rows_of(S), part_of(columns_of(Y), first, count), static_cast<std::size_t>(S.cols()), &Z(0, first),
-                    static_cast<std::size_t>(Z.rows()));
+        add_product(rows_of(S), part_of(columns_of(Y), first, count), static_cast<std::size_t>(S.cols()),
+                    {&Z(0, first), static_cast<std::size_t>(Z.rows())});
     });
     return Z;
 }

@@ -91,7 +91,7 @@ Factor part_of(const Factor& factor, std::size_t first, std::size_t most, std::s
 
 } // namespace
 
-void add_product(const Factor& A, const Factor& B, std::size_t depth, double* C, std::size_t stride)
+void add_product(const Factor& A, const Factor& B, std::size_t depth, const Sums& C)
 {
     static const MultiplyStrips multiply = widest();
     std::vector<double> a(panel_rows * panel_depth), b(panel_columns * panel_depth);
@@ -102,7 +102,7 @@ void add_product(const Factor& A, const Factor& B, std::size_t depth, double* C,
                 multiply(a.data() + i * terms, b.data() + j * terms, terms, sums);
                 for (std::size_t c = j; c < std::min(columns, j + strip_columns); ++c)
                     for (std::size_t r = i; r < std::min(rows, i + strip_rows); ++r)
-                        corner[r + c * stride] += sums[(c - j) * strip_rows + r - i];
+                        corner[r + c * C.stride] += sums[(c - j) * strip_rows + r - i];
             }
     };
     for (std::size_t p = 0; p < depth; p += panel_depth)
@@ -113,7 +113,7 @@ void add_product(const Factor& A, const Factor& B, std::size_t depth, double* C,
             for (std::size_t i = 0; i < A.count; i += panel_rows) {
                 const Factor rows = part_of(A, i, panel_rows, p);
                 pack(rows, terms, strip_rows, a.data());
-                add_panels(rows.count, columns.count, terms, C + i + j * stride);
+                add_panels(rows.count, columns.count, terms, C.data + i + j * C.stride);
             }
         }
 }

@@ -24,8 +24,14 @@ inline Factor columns_of(MatrixView<const double> matrix)
     return {matrix.data, matrix.cols, 1, matrix.cols};
 }
 
-/// C += A B^T, where C(i, j) is C[i + j * stride]: 256 terms are summed up as p rises, then added.
+/// A matrix by columns, to be added to: element (i, j) is data[i + j * stride].
+struct Sums {
+    double* data = nullptr;
+    std::size_t stride = 0;
+};
+
+/// C += A B^T: 256 terms are summed up as p rises, then added.
 /// @cost A.count B.count depth, near what the processor can do; memory half a megabyte.
-void add_product(const Factor& A, const Factor& B, std::size_t depth, double* C, std::size_t stride);
+void add_product(const Factor& A, const Factor& B, std::size_t depth, const Sums& C);
 
 } // namespace meshreel::linalg
