@@ -6,7 +6,7 @@ import os
 from draw import COLOURS, STYLE, pyplot
 from matplotlib import rc_context, ticker
 
-MARKERS = "osD^vPX*<>ph"
+MARKERS = "osD^vPX*<>p"  # one less than colours, so that no pair comes twice
 PALETTE = [*COLOURS[1:], "#7f3b08", "#542788", "#1b7837", "#b2182b", "#878787", "#4d4d4d"]
 ACROSS = 3
 

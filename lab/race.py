@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 import os
 import shutil
+import statistics
 import sys
 import tempfile
 import time
@@ -137,7 +138,7 @@ class Race:
             return record
 
     def row(self, entrant):
-        """The least times of all turns, as what disturbs a processor only adds to them; the size and the errors of the first."""
+        """The medians of the times of all turns; the size and the errors of the first."""
         records = [record for turn in range(self.plan.runs) if (record := self.known(entrant, turn))]
         first, clip = records[0], entrant.clip
         self.outcome.seconds += sum(record["wall_s"] for record in records)
@@ -147,7 +148,7 @@ class Race:
         self.outcome.about |= {name: {key: found[key] for key in ("title", "unit", "better")} for name, found in first["measures"].items()}
         self.outcome.programs += {record["program"] for record in records if "program" in record}
         samples = clip.V * clip.F
-        encode_s, decode_s = (min(record[key] for record in records) for key in ("encode_s", "decode_s"))
+        encode_s, decode_s = (statistics.median(record[key] for record in records) for key in ("encode_s", "decode_s"))
         return {"sequence": clip.name, "coding": entrant.coding.name, "setting": label(entrant.point), "V": clip.V, "F": clip.F,
                 "bytes": first["bytes"], "bpfv": 8 * first["bytes"] / samples,  # (9.1)
                 **{name: found["value"] for name, found in first["measures"].items()},

@@ -122,10 +122,10 @@ def background(known):
     items = lambda words: "<ul>" + "".join(f"<li>{html.escape(word)}</li>" for word in words) + "</ul>"
     counts = table(["coding", "what its size counts"], [[coding["name"], cell(coding["counts"], "words")] for coding in known["codings"]])
     skipped = f"<h2>Not measured</h2>{items(known['skipped'])}" if known["skipped"] else ""
-    least = f"the least of {known['runs']} runs in turn" if known["runs"] > 1 else "in one run"
+    median = f"the median of {known['runs']} runs in turn" if known["runs"] > 1 else "in one run"
     return (f"<section><h2>What is counted</h2>{counts}{skipped}<h2>Made by</h2>"
             f"<p>Sizes are of whole files; errors are measured on what was decoded; times are a program's own, what the processor worked for it at one "
-            f"thread, {least}.</p>{items(known['made_by'])}</section>")
+            f"thread, {median}.</p>{items(known['made_by'])}</section>")
 
 
 def part(name):
