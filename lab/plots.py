@@ -12,9 +12,10 @@ ACROSS = 3
 
 
 def styles(codings):
-    """{name: colour, marker}; our own codecs' lines are whole, the peers' dashed."""
-    return {coding.name: {"color": PALETTE[i % len(PALETTE)], "marker": MARKERS[i % len(MARKERS)],
-                          "linestyle": "--" if coding.peer else "-"} for i, coding in enumerate(codings)}
+    """{name: colour, marker}; our own codecs' lines are whole, the peers' dashed, or dotted where the colours come again."""
+    line = lambda i, coding: "-" if not coding.peer else "--" if i < len(PALETTE) else ":"
+    return {coding.name: {"color": PALETTE[i % len(PALETTE)], "marker": MARKERS[i % len(MARKERS)], "linestyle": line(i, coding)}
+            for i, coding in enumerate(codings)}
 
 
 def plain(axis):
