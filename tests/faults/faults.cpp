@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <ctime>
+#include <iomanip>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +83,23 @@ std::vector<Bytes> wild_values(std::size_t size)
 }
 
 } // namespace
+
+Tally& Tally::operator+=(const Tally& more)
+{
+    refused += more.refused;
+    valid += more.valid;
+    peak = std::max(peak, more.peak);
+    longest_s = std::max(longest_s, more.longest_s);
+    return *this;
+}
+
+std::string Tally::sentence() const
+{
+    std::ostringstream said;
+    said << tried() << " tried, " << refused << " refused, " << valid << " valid; at most " << peak / 1024 << " kB, "
+         << std::fixed << std::setprecision(3) << longest_s << " s";
+    return said.str();
+}
 
 Tally truncations(ByteView file, std::size_t stride)
 {

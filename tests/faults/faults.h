@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "meshreel/base/file.h"
 
@@ -15,6 +16,8 @@ struct Tally {
     double longest_s = 0.0; ///< processor time of one decode
 
     std::uint64_t tried() const { return refused + valid; }
+    Tally& operator+=(const Tally& more);
+    std::string sentence() const; ///< all of it
 };
 
 /// Every file that is cut off; each is refused.

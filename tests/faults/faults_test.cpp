@@ -31,10 +31,8 @@ protected:
 
     void report(const char* what, const faults::Tally& tally) const
     {
-        std::printf("%s, %s, %zu bytes: %llu tried, %llu refused, %llu valid; at most %zu kB, %.3f s\n",
-                    std::string(GetParam().name).c_str(), what, file.size(),
-                    static_cast<unsigned long long>(tally.tried()), static_cast<unsigned long long>(tally.refused),
-                    static_cast<unsigned long long>(tally.valid), tally.peak / 1024, tally.longest_s);
+        std::printf("%s, %s, %zu bytes: %s\n", std::string(GetParam().name).c_str(), what, file.size(),
+                    tally.sentence().c_str());
         all.tried += tally.tried();
     }
 
