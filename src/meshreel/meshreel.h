@@ -86,7 +86,7 @@ struct DecodeOptions {
 
 /// Compresses an animation. A quality target is verified on the decoded bytes before this returns.
 /// @fails bad_input: the animation is not valid; usage: the options contradict each other; missed: no setting of the
-/// codec reaches the target.
+/// codec reaches the target, or coordinates near float32's largest would be decoded beyond it.
 Result<Encoded> encode(const Animation& animation, const EncodeOptions& options = {});
 
 /// The same of frames that are read when they are needed, again and again: of a long animation one segment is in memory

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "meshreel/base/text.h"
 #include "meshreel/codecs/opening.h"
 #include "meshreel/container/segments.h"
 #include "meshreel/mesh/reorder.h"
@@ -13,6 +14,16 @@
 namespace meshreel {
 
 namespace {
+
+/// Coordinates near float32's largest may be decoded beyond it, which no reader takes.
+Status still_finite(std::size_t first, MatrixView<const float> decoded)
+{
+    const Status finite = validate_frames(first, decoded);
+    if (finite.ok()) return finite;
+    return Error{ErrorCode::missed,
+                 concat("decoded, ", finite.error().message, "; so large coordinates need a finer step, or lossless"),
+                 finite.error().field};
+}
 
 class Verifier {
 public:
@@ -40,6 +51,7 @@ public:
             const std::size_t count = std::min(run, decoded.rows - f);
             MESHREEL_TRY(const MatrixView<const float> original, source_.frames(first + f, count, room_));
             const Matrix<float> distorted = spread({decoded.row(f).data(), count, decoded.cols});
+            MESHREEL_CHECK(still_finite(first + f, distorted.view()));
             const metrics::Pair<float> pair{original, distorted.view(), source_.still().triangles};
             kg_.add(pair);
             error_.add(pair);

@@ -26,7 +26,8 @@ struct Difference {
     std::optional<double> sted;
 };
 
-/// Decodes all of a file, a segment in memory at a time. @fails as decode() and the source do.
+/// Decodes all of a file, a segment in memory at a time. @fails as decode() and the source do; missed, with its field: the
+/// file would be refused, as positions became infinite.
 Result<Difference> difference(ByteSource& file, FrameSource& source, const VerificationOptions& options);
 
 } // namespace meshreel

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <cstring>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -266,6 +267,29 @@ TEST(Reel, KeepsATargetWhereOtherMeasuresAreInfinite)
     ASSERT_TRUE(encoded.ok()) << encoded.error().sentence();
     EXPECT_GE(encoded->psnr, 43.0);
     EXPECT_TRUE(decode(encoded->bytes).ok());
+}
+
+TEST_P(EveryLossyReel, RefusesPositionsThatItsFileWouldGiveBackInfinite)
+{
+    Animation animation = sample();
+    for (std::size_t f = 0; f < 10; ++f) animation.frame(f)[1] = std::numeric_limits<float>::max();
+    EncodeOptions options = options_for(GetParam());
+    options.quality = {};
+    options.quality.bases = 1;
+    int refused = 0;
+    for (const double step : {0.02, 0.03, 0.04, 0.05}) { // of most codecs half of them round up
+        options.quality.step = step;
+        const auto encoded = encode(animation, options);
+        if (encoded.ok()) {
+            EXPECT_TRUE(decode(encoded->bytes).ok());
+            continue;
+        }
+        ++refused;
+        EXPECT_EQ(encoded.error().code, ErrorCode::missed);
+        EXPECT_THAT(encoded.error().sentence(),
+                    testing::HasSubstr("positions: decoded, frame 0, vertex 0, y is infinite; "));
+    }
+    EXPECT_TRUE(refused > 0 || GetParam().name == "reel"); // which rounds towards nothing
 }
 
 TEST(Reel, FillsTheSizeAskedFor)
