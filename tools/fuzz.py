@@ -24,7 +24,7 @@ OUT = os.path.join(ROOT, "build-fuzz")
 LEDGER = os.path.join(ROOT, "fuzz/ledger.csv")
 PAGE = os.path.join(ROOT, "docs/threat-model.md")
 BEGIN, END = "<!-- made by tools/fuzz.py -->\n", "<!-- end -->\n"
-WHOLE_FILES = {"reel", "reel_threads", "player", "wasm_boundary"}  # these start from small golden files too
+WHOLE_FILES = {"reel", "reel_threads", "player", "wasm_boundary"}  # these start from .reel files
 MOST_STRETCHED = 10  # seconds of the clock for one of the processor
 INTERRUPTED = 72     # libFuzzer's exit code, with its figures told
 TICKS = os.sysconf("SC_CLK_TCK")
@@ -101,17 +101,21 @@ def all_targets():
 
 
 def starts_of(target):
-    """The corpus, which libFuzzer adds to, and what it only reads: the target's own seeds, small golden files."""
-    corpus, seeds, golden = os.path.join(OUT, "corpus/fuzz_" + target), os.path.join(ROOT, "fuzz/seeds", target), os.path.join(OUT, "golden")
+    """The corpus, which libFuzzer adds to, and what it only reads: the target's own seeds, files of its kind."""
+    corpus, seeds = os.path.join(OUT, "corpus/fuzz_" + target), os.path.join(ROOT, "fuzz/seeds", target)
     os.makedirs(corpus, exist_ok=True)
-    return [corpus, *([seeds] if os.path.isdir(seeds) else []), *([golden] if target in WHOLE_FILES else [])]
+    files = os.path.join(OUT, "files", "reel" if target in WHOLE_FILES else target.removeprefix("io_"))
+    return [corpus, *(folder for folder in (seeds, files) if os.path.isdir(folder))]
 
 
-def copy_golden():
-    os.makedirs(os.path.join(OUT, "golden"), exist_ok=True)
-    for path in glob.glob(os.path.join(ROOT, "tests/golden/*.reel")):
+def copy_files():
+    """Small golden files and earlier findings, a folder for each kind."""
+    shutil.rmtree(os.path.join(OUT, "files"), ignore_errors=True)
+    for path in glob.glob(os.path.join(ROOT, "tests/golden/*.reel")) + glob.glob(os.path.join(ROOT, "tests/malformed/[0-9]*")):
+        folder = os.path.join(OUT, "files", path.rsplit(".", 1)[1])
+        os.makedirs(folder, exist_ok=True)
         if os.path.getsize(path) < 8 << 10:
-            shutil.copy(path, os.path.join(OUT, "golden"))
+            shutil.copy(path, folder)
 
 
 def used_seconds(pid):
@@ -193,7 +197,7 @@ def main():
         signal.signal(number, lambda *_: stopped.set())
     if not arguments.built:
         build(arguments.targets, arguments.jobs)
-    copy_golden()
+    copy_files()
     rows, clean = [], True
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         for ended in concurrent.futures.as_completed([pool.submit(run, target, arguments) for target in arguments.targets]):
