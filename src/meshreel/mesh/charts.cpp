@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <numeric>
-#include <string_view>
 #include <tuple>
-#include <unordered_map>
 
 namespace meshreel {
 
@@ -19,13 +18,22 @@ constexpr std::uint32_t no_value = 0xffffffff;
 std::vector<std::uint32_t> value_numbers(const Attribute& attribute, std::size_t corner_count)
 {
     const std::size_t size = scalar_size(attribute.type) * attribute.components;
-    const std::string_view bytes(reinterpret_cast<const char*>(attribute.values.data()), attribute.values.size());
-    std::unordered_map<std::string_view, std::uint32_t> first;
+    const auto value = [&](std::uint32_t c) { return attribute.indices.empty() ? c : attribute.indices[c]; };
+    const auto difference = [&](std::uint32_t a, std::uint32_t b) {
+        const std::uint8_t* values = attribute.values.data();
+        return std::memcmp(values + value(a) * size, values + value(b) * size, size);
+    };
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t c = 0; c < corner_count; ++c)
+        if (value(c) != no_value) corners.push_back(c);
+    std::ranges::sort(corners, [&](std::uint32_t a, std::uint32_t b) {
+        const int found = difference(a, b);
+        return found != 0 ? found < 0 : a < b;
+    });
     std::vector<std::uint32_t> numbers(corner_count, no_value);
-    for (std::uint32_t c = 0; c < corner_count; ++c) {
-        const std::uint32_t value = attribute.indices.empty() ? c : attribute.indices[c];
-        if (value != no_value) numbers[c] = first.emplace(bytes.substr(value * size, size), c).first->second;
-    }
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        numbers[corners[i]] =
+            i > 0 && difference(corners[i], corners[i - 1]) == 0 ? numbers[corners[i - 1]] : corners[i];
     return numbers;
 }
 
