@@ -18,15 +18,10 @@ struct Raised {};
 
 namespace meshreel {
 
-[[noreturn]] void raise(ErrorCode /*code*/, std::string_view message, std::string_view /*field*/,
-                        std::optional<Place> /*place*/)
+[[noreturn]] void raise(ErrorCode /*code*/, std::string_view message, std::string_view /*field*/, std::int64_t /*byte*/)
 {
     if (message.empty()) std::abort();
     throw Raised{};
-}
-[[noreturn]] void raise(const Error& error)
-{
-    raise(error.code, error.message, error.field, error.place);
 }
 
 } // namespace meshreel

@@ -13,14 +13,9 @@ host_raise(int code, double byte, const std::string_view* message, const std::st
 
 namespace meshreel {
 
-void raise(ErrorCode code, std::string_view message, std::string_view field, std::optional<Place> place)
+void raise(ErrorCode code, std::string_view message, std::string_view field, std::int64_t byte)
 {
-    host_raise(static_cast<int>(code), place ? static_cast<double>(place->number) : -1, &message, &field);
-}
-
-void raise(const Error& error)
-{
-    raise(error.code, error.message, error.field, error.place);
+    host_raise(static_cast<int>(code), static_cast<double>(byte), &message, &field);
 }
 
 } // namespace meshreel
@@ -55,7 +50,7 @@ struct Array {
 template <class Values>
 Array array_of(const Values& values)
 {
-    return {values.data(), values.size() * sizeof(values[0])};
+    return {values.data(), values.size() * sizeof(typename Values::value_type)};
 }
 
 /// The arrays of an animation that does not move. The numbers are those of js/decoder.js.

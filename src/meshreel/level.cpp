@@ -8,7 +8,7 @@ namespace meshreel {
 
 namespace {
 
-Error no_level(std::string message)
+Error no_level(Sentence message)
 {
     return {ErrorCode::usage, std::move(message), "level", {}, {}};
 }

@@ -160,7 +160,7 @@ TEST(Fields, refuse_a_list_above_the_memory_limit)
     Reader reader({bytes, 0, "BIG"}, {.max_memory = 1000});
     reader.list("items", big.items, any, "");
     ASSERT_TRUE(reader.failed());
-    EXPECT_THAT(reader.error()->message, testing::HasSubstr("memory limit"));
+    EXPECT_THAT((*reader.failure()).message, testing::HasSubstr("memory limit"));
 }
 
 } // namespace

@@ -7,23 +7,24 @@
 
 namespace meshreel {
 
-/// Tells the host, who throws what it throws.
-[[noreturn]] void raise(const Error& error);
-[[noreturn]] void raise(ErrorCode code, std::string_view message, std::string_view field, std::optional<Place> place);
+/// Tells the host, who throws what it throws. byte: where, -1: nowhere.
+[[noreturn, gnu::noinline, gnu::cold]] void raise(ErrorCode code, std::string_view message, std::string_view field,
+                                                  std::int64_t byte);
 
-/// Never made.
+/// Never happens.
 struct Failure {
+    constexpr bool happened() const { return false; }
     operator Error() const { __builtin_unreachable(); }
 };
 
 [[noreturn]] inline Failure bad_input(std::string_view message, std::string_view field = {},
                                       std::optional<Place> place = {})
 {
-    raise(ErrorCode::bad_input, message, field, place);
+    raise(ErrorCode::bad_input, message, field, place ? static_cast<std::int64_t>(place->number) : -1);
 }
 [[noreturn]] inline Failure unsupported(std::string_view message, std::string_view field = {})
 {
-    raise(ErrorCode::unsupported, message, field, {});
+    raise(ErrorCode::unsupported, message, field, -1);
 }
 
 /// Always a T.
@@ -51,7 +52,11 @@ public:
 
 private:
     [[noreturn]] static T never() { __builtin_unreachable(); }
-    [[noreturn]] static T raised(const Error& error) { raise(error); }
+    [[noreturn]] static T raised(const Error& error)
+    {
+        raise(error.code, error.message, error.field,
+              error.place ? static_cast<std::int64_t>(error.place->number) : -1);
+    }
 
     T value_;
 };

@@ -26,10 +26,17 @@ struct Place {
     std::uint64_t number = 0; ///< byte offset from 0, or line number from 1
 };
 
+/// What went wrong, in words.
+#ifndef MESHREEL_DECODER_ALONE
+using Sentence = std::string;
+#else // a literal
+using Sentence = std::string_view;
+#endif
+
 /// One failure, told once.
 struct Error {
     ErrorCode code = ErrorCode::runtime;
-    std::string message;    ///< a sentence without the place: "17 vertices, but frame 0 has 12"
+    Sentence message;       ///< a sentence without the place: "17 vertices, but frame 0 has 12"
     std::string field = {}; ///< the field or element concerned: "vertex_count", "f"; may be empty
     std::string file = {};  ///< the file's name, as the user gave it; may be empty
     std::optional<Place> place = {};
@@ -65,6 +72,7 @@ public:
         if (error_ != nullptr) discard();
     }
 
+    bool happened() const { return error_ != nullptr; }
     const Error& operator*() const { return *error_; }
     operator Error() const& { return *error_; }
     operator Error() &&;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "meshreel/base/result.h"
+
 namespace meshreel {
 
 /// A text or a number, until it is written out.
@@ -44,22 +46,18 @@ std::string joined(const Pieces&... pieces)
 /// A sentence: concat("frame ", 7, " has ", n, " vertices").
 #ifndef MESHREEL_DECODER_ALONE
 template <class... Pieces>
-std::string concat(const Pieces&... pieces)
+Sentence concat(const Pieces&... pieces)
 {
     return joined(pieces...);
 }
 #else // where every byte counts, its longest literal must do: " vertices"
 template <class... Pieces>
-constexpr const char* concat(const Pieces&... pieces)
+constexpr Sentence concat(const Pieces&... pieces)
 {
-    const char* longest = "";
-    std::size_t length = 0;
+    Sentence longest;
     const auto look = [&](const auto& piece) {
         if constexpr (std::is_array_v<std::remove_reference_t<decltype(piece)>>)
-            if (sizeof(piece) > length) {
-                length = sizeof(piece);
-                longest = piece;
-            }
+            if (sizeof(piece) > longest.size()) longest = {piece, sizeof(piece) - 1};
     };
     (look(pieces), ...);
     return longest;

@@ -60,12 +60,18 @@ inline constexpr RealRange finite{};
 inline constexpr RealRange not_negative{0.0};
 inline constexpr RealRange positive{std::numeric_limits<double>::denorm_min()};
 
+/// What only explanations and tables say of a field.
 #ifndef MESHREEL_DECODER_ALONE
-using Meaning = std::string_view;
-#else // nobody asks, so no text need be kept
-struct Meaning {
-    constexpr Meaning() = default;
-    constexpr Meaning(std::string_view) {}
+template <class T>
+using Told = T;
+#else // nobody asks, so nothing need be kept
+template <class T>
+struct Told {
+    constexpr Told() = default;
+    template <class Text>
+    constexpr Told(const Text&)
+    {
+    }
 };
 #endif
 
@@ -73,12 +79,12 @@ struct Meaning {
 struct Field {
     std::string_view name;
     Encoding encoding = Encoding::u8;
-    Meaning meaning;
+    Told<std::string_view> meaning;
     Range range = {};
     RealRange real = {};
     SignedRange whole = {};
-    std::span<const std::string_view> names = {}; ///< of the values 0, 1, ...
-    std::string_view times = {};                  ///< not empty: an array, and what says how many
+    Told<std::span<const std::string_view>> names = {}; ///< of the values 0, 1, ...
+    Told<std::string_view> times = {};                  ///< not empty: an array, and what says how many
 };
 
 /// How many items an array has, as a number and in words.

@@ -57,7 +57,7 @@ std::uint64_t most(const DecodeLimits& limits, Limit limit)
 }
 
 /// What is wrong with an integer, or nothing.
-std::string complaint(const Field& field, std::uint64_t value)
+Sentence complaint(const Field& field, std::uint64_t value)
 {
     if (field.encoding == Encoding::zigzag) {
         const std::int64_t n = unzigzag(value);
@@ -69,7 +69,7 @@ std::string complaint(const Field& field, std::uint64_t value)
     return concat(value, " is not in ", field.range.low, " .. ", field.range.high);
 }
 
-std::string complaint(const Field& field, double value)
+Sentence complaint(const Field& field, double value)
 {
     if (!std::isfinite(value)) return std::isnan(value) ? "not a number" : "infinite";
     if (value >= field.real.low && value <= field.real.high) return {};
@@ -106,7 +106,7 @@ Result<Bytes> Writer::finish() &&
     return std::move(bytes_);
 }
 
-void Writer::fail(std::string_view name, std::string message)
+void Writer::fail(std::string_view name, Sentence message)
 {
     if (!error_) error_ = Error{ErrorCode::usage, std::move(message), std::string(name), {}, {}};
 }
@@ -118,7 +118,7 @@ void Writer::rule(bool holds, std::string_view name, std::string_view rule)
 
 std::uint64_t Writer::integer(const Field& field, std::uint64_t value)
 {
-    if (std::string wrong = complaint(field, value); !wrong.empty()) fail(field.name, std::move(wrong));
+    if (Sentence wrong = complaint(field, value); !wrong.empty()) fail(field.name, std::move(wrong));
     if (const std::size_t size = fixed_size(field.encoding); size != 0)
         put(bytes_, value, size);
     else
@@ -128,7 +128,7 @@ std::uint64_t Writer::integer(const Field& field, std::uint64_t value)
 
 double Writer::real(const Field& field, double value)
 {
-    if (std::string wrong = complaint(field, value); !wrong.empty()) fail(field.name, std::move(wrong));
+    if (Sentence wrong = complaint(field, value); !wrong.empty()) fail(field.name, std::move(wrong));
     const std::size_t size = fixed_size(field.encoding);
     bytes_.resize(bytes_.size() + size);
     std::uint8_t* end = bytes_.data() + bytes_.size();
@@ -141,8 +141,8 @@ double Writer::real(const Field& field, double value)
 
 ByteView Writer::bytes(const Field& field, ByteView value)
 {
-    if (std::string wrong = complaint(field, std::uint64_t{value.size()}); !wrong.empty())
-        fail(field.name, "its length " + wrong);
+    if (Sentence wrong = complaint(field, std::uint64_t{value.size()}); !wrong.empty())
+        fail(field.name, concat("its length ", wrong));
     if (has_length(field.encoding)) put_varint(bytes_, value.size());
     bytes_.insert(bytes_.end(), value.begin(), value.end());
     return value;
@@ -166,9 +166,9 @@ std::uint64_t Writer::list_count(const Field& field, std::uint64_t count, std::s
 
 // ---- Reader
 
-void Reader::fail(std::string_view name, std::string message, std::uint64_t begin)
+void Reader::fail(std::string_view name, const Sentence& message, std::uint64_t begin)
 {
-    if (!error_) error_ = bad_input(std::move(message), full_name(name), at_byte(begin));
+    if (!failed()) failure_ = bad_input(message, full_name(name), at_byte(begin));
 }
 
 std::string Reader::full_name(std::string_view name) const
@@ -188,10 +188,9 @@ void Reader::enter(std::string_view name, std::uint64_t index)
 
 Status Reader::finish()
 {
-    if (error_) return *error_;
-    if (left() == 0) return Ok{};
-    fail("", concat(left(), " bytes are left over after its last field"), offset());
-    return *error_;
+    if (left() != 0) fail("", concat(left(), " bytes are left over after its last field"), offset());
+    if (failed()) return failure_;
+    return Ok{};
 }
 
 void Reader::rule(bool holds, std::string_view name, std::string_view rule)
@@ -233,10 +232,10 @@ std::uint64_t Reader::take_varint(const Field& field)
 bool Reader::allowed(const Field& field, std::uint64_t value, std::uint64_t begin)
 {
     if (failed()) return false;
-    std::string wrong = complaint(field, value);
+    Sentence wrong = complaint(field, value);
     const std::uint64_t limit = most(limits_, field.range.limit);
     if (wrong.empty() && value > limit) wrong = concat(value, " is above the limit of ", limit);
-    if (!wrong.empty()) fail(field.name, std::move(wrong), begin);
+    if (!wrong.empty()) fail(field.name, wrong, begin);
     return !failed();
 }
 
@@ -257,7 +256,7 @@ double Reader::real(const Field& field, double /*ignored*/)
     const std::uint8_t* here = take(field, fixed_size(field.encoding));
     if (here == nullptr) return 0.0;
     const double value = real_at(here, field.encoding);
-    if (std::string wrong = complaint(field, value); !wrong.empty()) fail(field.name, std::move(wrong), begin);
+    if (Sentence wrong = complaint(field, value); !wrong.empty()) fail(field.name, wrong, begin);
     return failed() ? 0.0 : value;
 }
 

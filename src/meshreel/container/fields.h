@@ -246,7 +246,7 @@ public:
     bool begin_when(bool condition, std::string_view) { return condition; }
     void end_when() {}
     void rule(bool holds, std::string_view name, std::string_view rule);
-    void fail(std::string_view name, std::string message);
+    void fail(std::string_view name, Sentence message);
 
 private:
     Bytes bytes_;
@@ -270,8 +270,8 @@ public:
 
     /// All fields were read: is all well, and nothing left over? @fails bad_input, with byte and field.
     Status finish();
-    bool failed() const { return error_.has_value(); }
-    const std::optional<Error>& error() const { return error_; }
+    bool failed() const { return failure_.happened(); }
+    const Failure& failure() const { return failure_; }
     std::uint64_t offset() const { return source_.offset + at_; } ///< in the file
     std::uint64_t left() const { return failed() ? 0 : source_.bytes.size() - at_; }
     const DecodeLimits& limits() const { return limits_; }
@@ -287,7 +287,7 @@ public:
     void end_when() {}
     void rule(bool holds, std::string_view name, std::string_view rule);
     /// Records the first error; `begin` is where its field began, in the file.
-    void fail(std::string_view name, std::string message, std::uint64_t begin);
+    void fail(std::string_view name, const Sentence& message, std::uint64_t begin);
     /// "SEGM.parts[2].step"
     std::string full_name(std::string_view name) const;
 
@@ -307,7 +307,7 @@ private:
     DecodeLimits limits_;
     std::uint64_t at_ = 0;
     std::vector<Step> path_;
-    std::optional<Error> error_;
+    Failure failure_; ///< the first
 };
 
 /// A struct's bytes. @fails usage: a field is outside its range.

@@ -44,7 +44,7 @@ Result<Segment> beginning_of(const Index::Entry& entry, ByteView bytes, const De
     Segment segment;
     chunk.fields(reader);
     segment.fields(reader);
-    if (reader.failed()) return *reader.error();
+    if (reader.failed()) return reader.failure();
     segment.payload_offset = entry.offset + static_cast<std::uint64_t>(segment.payload.data() - bytes.data());
     return segment;
 }

@@ -129,7 +129,7 @@ Result<Chunk> read_chunk(ByteView bytes, std::uint64_t begin)
     Reader reader({bytes, begin, "chunk"}, {});
     ChunkHead head;
     head.fields(reader);
-    if (reader.failed()) return *reader.error();
+    if (reader.failed()) return reader.failure();
     for (std::size_t i = 0; i < 4; ++i)
         if (!is_letter(bytes[i]))
             return bad_input("a chunk's type must be four letters", "chunk.type", at_byte(begin + i));
