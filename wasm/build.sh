@@ -35,7 +35,8 @@ build() {
         -Iwasm/libcxx -Iwasm/stand_in -Iwasm -Isrc -I$out/include -c $out/$name.cpp -o $out/$name.o
     wasm-ld-14 $out/$name.o $sysroot/lib/wasm32-emscripten/crt1_reactor.o -o $out/$name.linked.wasm \
         -L$sysroot/lib/wasm32-emscripten -lc++-noexcept -lc++abi-noexcept -lc-optz -lc -lcompiler_rt -lstandalonewasm-memgrow \
-        --allow-undefined --no-entry --export=_initialize --lto-O2 -O2 -mllvm -disable-lsr --gc-sections --stack-first -z stack-size=262144
+        --allow-undefined --no-entry --export=_initialize --lto-O2 -O2 -mllvm -disable-lsr --gc-sections \
+        --stack-first -z stack-size=262144 --max-memory=2147483648
     wasm-opt -Oz --converge --low-memory-unused --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int \
         --strip-debug --strip-producers $out/$name.linked.wasm -o $out/$name.wasm
     echo "$out/$name.wasm: $(stat -c %s $out/$name.wasm) bytes, $(gzip -9c $out/$name.wasm | wc -c) gzipped"

@@ -1,9 +1,12 @@
 /// malloc and free in little code: free blocks in the order of their addresses, the first that is large enough is taken.
 // SPDX-License-Identifier: MIT
+//
+// Small ones are kept apart, by their size: there may be many, and none must be searched for.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <utility>
 
 extern "C" std::byte __heap_base; // of the linker: the first byte that nothing else uses
 
@@ -18,6 +21,9 @@ struct HeapBlock {
 
     HeapBlock* end() { return reinterpret_cast<HeapBlock*>(reinterpret_cast<std::byte*>(this) + bytes); }
 };
+
+constexpr std::size_t small_bytes = 256; ///< with the head
+HeapBlock* small_free[small_bytes / 8 + 1];
 
 HeapBlock first_free; ///< stands for none: before all others
 
@@ -49,6 +55,13 @@ void* malloc(std::size_t count)
 {
     if (count > 0x7fff0000) return nullptr;
     const std::size_t bytes = (count + sizeof(HeapBlock) + 7) & ~std::size_t{7};
+    if (bytes <= small_bytes) {
+        HeapBlock*& kept = small_free[bytes / 8];
+        if (HeapBlock* block = kept) {
+            kept = block->next;
+            return block + 1;
+        }
+    }
     do {
         for (HeapBlock* before = &first_free; HeapBlock* block = before->next; before = block) {
             if (block->bytes < bytes) continue;
@@ -69,6 +82,10 @@ void free(void* given)
 {
     if (given == nullptr) return;
     HeapBlock* block = static_cast<HeapBlock*>(given) - 1;
+    if (block->bytes <= small_bytes) {
+        block->next = std::exchange(small_free[block->bytes / 8], block);
+        return;
+    }
     HeapBlock* before = &first_free;
     while (before->next != nullptr && before->next < block) before = before->next;
     const auto join = [](HeapBlock* a, HeapBlock* b) {

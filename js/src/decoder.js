@@ -51,7 +51,6 @@ export class Decoder {
           throw new ReelError(text(message).trim(), { code, byte, field: text(field) });
         },
       },
-      env: { emscripten_notify_memory_growth() {} },
       wasi_snapshot_preview1: {
         proc_exit() {
           throw new ReelError('the file needs more memory than there is');

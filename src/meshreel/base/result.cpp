@@ -12,7 +12,8 @@ std::string Error::sentence() const
     if (!file.empty()) all += file + ": ";
     if (place) all += joined(place->unit == Place::Unit::byte ? "byte " : "line ", place->number, ": ");
     if (!field.empty()) all += field + ": ";
-    return all + message;
+    all += message;
+    return all;
 }
 
 #ifndef MESHREEL_DECODER_ALONE
