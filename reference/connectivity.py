@@ -11,7 +11,6 @@ from reordered import Tries, read_order
 from surface import NONE, Trace
 
 WRAP = NONE
-CLERS = "CRLES"
 
 
 @dataclass
