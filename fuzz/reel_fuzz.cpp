@@ -1,9 +1,36 @@
-/// Feeds any bytes to the front door's decoder, whole, in parts, coarse and at another rate, and to its inspectors.
+/// Feeds any bytes to the front door's decoder: whole, in parts, by frames, coarse, at another rate; and to its inspectors.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "fuzz/reel_mutator.h"
 #include "meshreel/meshreel.h"
 
 using namespace meshreel;
+
+namespace {
+
+/// Frames that stay in their file are those of the whole decode.
+void ask_for_frames(ByteSource& source, const DecodeOptions& options, const Result<Animation>& whole)
+{
+    const auto opened = open_frames(source, options);
+    if (!opened.ok()) {
+        if (whole.ok()) __builtin_trap();
+        return;
+    }
+    if ((*opened)->frame_count() * (*opened)->still().vertex_count > 1u << 20) return; // slow, and nothing new
+    Matrix<float> room;
+    const auto frames = (*opened)->frames(0, (*opened)->frame_count(), room);
+    if (whole.ok() && !(frames.ok() && std::ranges::equal(frames->values(), whole->positions))) __builtin_trap();
+}
+
+/// A sentence goes with every refusal.
+template <class T>
+void look(const Result<T>& seen, bool readable)
+{
+    if (!seen.ok() && (readable || seen.error().message.empty())) __builtin_trap();
+}
+
+} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
@@ -26,6 +53,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.fps = 37.0;
     const auto other_rate = decode(source, options);
     if (other_rate.ok() && !validate(*other_rate).ok()) __builtin_trap();
-    if (info(bytes, options.limits).ok() && bytes.empty()) __builtin_trap();
+    options.frames = {};
+    options.fps.reset();
+    ask_for_frames(source, options, animation);
+    look(info(bytes, options.limits), animation.ok());
+    look(explain(bytes, options.limits), false);
+    look(levels(bytes, options), false);
     return 0;
 }
