@@ -40,6 +40,9 @@ class Bars:
                 if length > MOST:
                     panel.annotate(f"{length:.0f}", (MOST, y), xytext=(-2, -0.5), textcoords="offset points", ha="right", va="center", fontsize=digits,
                                    color="#fefefe")
+        measured = {key for values in self.found.values() for key in values}
+        for row in (row for row, key in enumerate(keys) if key not in measured):
+            panel.annotate("–", (1, row), va="center", fontsize=9)  # as in the tables: not measured
         panel.set(xlim=(-MOST / 4, MOST), xticks=(0, 10, 20), ylim=(len(keys) - 0.4, -0.6))
         panel.tick_params(axis="y", length=0)
         panel.axvline(0, color="#888888", linewidth=0.8)
