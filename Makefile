@@ -16,9 +16,10 @@ test:           ## the fast tests of a development build
 	cmake --build build-dev
 	ctest --test-dir build-dev --output-on-failure -LE slow -j2
 
-fuzz:           ## every fuzz target for a minute of the processor, or FUZZ_SECONDS=...; then both decoders of what was found; KEEP=1: into fuzz/ledger.csv
+fuzz:           ## every fuzz target for a minute of the processor, or FUZZ_SECONDS=...; then all decoders of what was found; KEEP=1: into fuzz/ledger.csv
 	tools/fuzz.py $(or $(FUZZ_SECONDS),60) $(if $(KEEP),--keep)
 	reference/differential.py build-fuzz/golden_files build-fuzz/corpus/fuzz_reel
+	[ ! -e build-wasm/meshreel-all.wasm ] || node js/test/differential.mjs build-fuzz/golden_files build-fuzz/corpus/fuzz_reel
 
 tsan:           ## the tests whose names speak of threads, under the thread sanitizer
 	cmake --preset tsan
