@@ -45,7 +45,8 @@ class Row:
     last: str = ""
 
     def plus(self, run):
-        return Row(self.target, round(self.cpu_seconds + run.cpu_seconds, 1), self.runs + run.runs, run.edges, run.of, run.corpus,
+        seen = run if run.edges > 0 else self  # a run cut off before it had read its corpus tells nothing of coverage
+        return Row(self.target, round(self.cpu_seconds + run.cpu_seconds, 1), self.runs + run.runs, seen.edges, seen.of, seen.corpus,
                    self.findings + run.findings, run.last)
 
 
@@ -92,7 +93,8 @@ def told(row):
 def row_of(target, log, cpu_seconds):
     """What a run's log says."""
     last = lambda pattern: int((re.findall(pattern, log) or [0])[-1])
-    return Row(target, round(cpu_seconds, 1), last(r"number_of_executed_units: (\d+)"), last(r" cov: (\d+)"), last(r"\((\d+) inline 8-bit counters\)"),
+    edges = last(r" cov: (\d+)") if "\tINITED " in log else 0  # of a corpus that was read to its end
+    return Row(target, round(cpu_seconds, 1), last(r"number_of_executed_units: (\d+)"), edges, last(r"\((\d+) inline 8-bit counters\)"),
                last(r" corp: (\d+)"), last=datetime.date.today().isoformat())
 
 

@@ -29,6 +29,11 @@ class Ledger(unittest.TestCase):
         both = fuzz.Row("reel", 10.0, 5, 90, 100, 7, 1, "2026-01-01").plus(fuzz.Row("reel", 2.5, 3, 95, 101, 8, 0, "2026-01-02"))
         self.assertEqual(both, fuzz.Row("reel", 12.5, 8, 95, 101, 8, 1, "2026-01-02"))
 
+    def test_a_run_cut_off_while_it_read_its_corpus_leaves_the_coverage_as_it_was(self):
+        run = fuzz.row_of("reel", LOG.replace("INITED", "pulse "), 2.5)
+        both = fuzz.Row("reel", 10.0, 5, 90, 100, 7, 0).plus(run)
+        self.assertEqual((both.cpu_seconds, both.runs, both.edges, both.of, both.corpus), (12.5, 1005, 90, 100, 7))
+
     def test_what_is_written_is_read_again(self):
         rows = {"reel": fuzz.Row("reel", 12.5, 8, 95, 101, 8, 1, "2026-01-02"), "coding": fuzz.Row("coding")}
         with tempfile.TemporaryDirectory() as folder:
