@@ -38,7 +38,7 @@ build() {
         --allow-undefined --no-entry --export=_initialize --lto-O2 -O2 -mllvm -disable-lsr --gc-sections \
         --stack-first -z stack-size=262144 --max-memory=2147483648
     wasm-opt --low-memory-unused --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int \
-        --strip-debug --strip-producers -Oz --flatten --rereloop -Oz --flatten --rereloop -Oz --converge $out/$name.linked.wasm -o $out/$name.wasm
+        --strip-debug --strip-producers -Oz --flatten --rereloop -Oz --flatten --rereloop -Oz $out/$name.linked.wasm -o $out/$name.wasm
     echo "$out/$name.wasm: $(stat -c %s $out/$name.wasm) bytes, $(gzip -9c $out/$name.wasm | wc -c) gzipped"
 }
 
