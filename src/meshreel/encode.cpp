@@ -9,6 +9,7 @@
 
 #include "meshreel/base/memory.h"
 #include "meshreel/base/text.h"
+#include "meshreel/codecs/choice.h"
 #include "meshreel/codecs/codec.h"
 #include "meshreel/coding/quantiser.h"
 #include "meshreel/connectivity/topology.h"
@@ -112,7 +113,8 @@ private:
         start.step = likely_step(figures(segments_.spectra()), allowed_, start);
         MESHREEL_TRY(start, opening_fast(start));
         const Result<tune::Attempt> found = tune::cheapest(problem, start);
-        if (!found.ok()) return found.error().code == ErrorCode::missed ? missed() : found.error();
+        if (!found.ok())
+            return found.error().code == ErrorCode::missed && found.error().field.empty() ? missed() : found.error();
         return *std::move(best);
     }
 
@@ -133,6 +135,7 @@ private:
         plan_ = tune::plan_of(options_.effort, tune());
         MESHREEL_CHECK(cut());
         MESHREEL_CHECK(segments_.prepare(usual_bases));
+        MESHREEL_CHECK(divide());
         if (std::isfinite(allowed_.kg) && norm() == 0) // every frame a point: nothing that KG could be a percentage of
             allowed_.max_error = std::exchange(allowed_.kg, no_limit) / 100 * diagonal();
         return Ok{};
@@ -146,13 +149,33 @@ private:
         const bool no_step = options_.quality.bases && !options_.quality.step;
         if (options_.segment != 0 || codec_.exact() || no_step) return Ok{};
         MESHREEL_TRY(const SegmentSample sample, SegmentSample::take(source_, topology_.original_of));
-        codecs::Settings settings = common(plan_.start);
-        settings.step = options_.quality.step
-                            ? *options_.quality.step * diagonal()
-                            : likely_step(figures(std::array{sample.spectrum(0, F)}), allowed_, settings);
-        const SegmentCosts costs(sample, {settings.step, settings.basis_ratio});
+        const codecs::Settings likely = likely_settings(std::array{sample.spectrum(0, F)});
+        const SegmentCosts costs(sample, {likely.step, likely.basis_ratio});
         segments_.cut(paying_segments(F, longest, costs));
         return Ok{};
+    }
+
+    /// Divides segments whose components are too many to be held beside long ones.
+    Status divide()
+    {
+        const std::size_t fits = longest_rich_segment(surface().vertex_count);
+        if (options_.segment != 0 || codec_.exact() || segments_.longest() <= fits) return Ok{};
+        const codecs::Settings likely = likely_settings(segments_.spectra());
+        const bool rich = std::ranges::any_of(segments_.spectra(), [&](const Spectrum& spectrum) {
+            return codecs::bases_of(likely, spectrum.singular_values, surface().vertex_count) >= usual_bases;
+        });
+        if (!rich) return Ok{};
+        segments_.cut(divided(segments_.spans(), fits));
+        return segments_.prepare(usual_bases);
+    }
+
+    codecs::Settings likely_settings(std::span<const Spectrum> spectra) const
+    {
+        codecs::Settings settings = common(plan_.start);
+        settings.bases = options_.quality.bases;
+        settings.step = options_.quality.step ? *options_.quality.step * diagonal()
+                                              : likely_step(figures(spectra), allowed_, settings);
+        return settings;
     }
 
     /// |A - E(A)| of (5.2), over the vertices that the codec sees.
@@ -283,6 +306,7 @@ private:
             settings.nudges = s < nudges.size() ? nudges[s] : std::vector<codecs::Nudge>();
             codecs::Trial trial = segment.encoder.encode(settings);
             if (trial.bases == segments_.max_bases() && !settings.bases && segments_.max_bases() < most_bases()) {
+                trial = {}; // it holds as much as the frames do
                 MESHREEL_CHECK(segments_.prepare(std::min(4 * segments_.max_bases(), most_bases())));
                 return attempted(settings, nudges);
             }
@@ -426,25 +450,6 @@ private:
     tune::Plan plan_;
 };
 
-Status check_effort(int effort)
-{
-    if (effort >= tune::least_effort && effort <= tune::most_effort) return Ok{};
-    return usage(concat("effort must be ", tune::least_effort, " to ", tune::most_effort, ", not ", effort));
-}
-
-Status check_base(const Animation& animation, const EncodeOptions& options)
-{
-    if (options.order != Order::base)
-        return options.base == nullptr ? Status(Ok{}) : usage("a base mesh is given, but the order is not base");
-    if (options.base == nullptr) return usage("order base needs a base mesh");
-    if (options.base->vertex_count != animation.vertex_count)
-        return usage(concat("the base mesh has ", options.base->vertex_count, " vertices, the animation ",
-                            animation.vertex_count));
-    if (options.base->triangles != animation.triangles)
-        return usage("the base mesh has other triangles than the animation");
-    return Ok{};
-}
-
 } // namespace
 
 Result<Encoded> encode(const Animation& animation, const EncodeOptions& options)
@@ -469,9 +474,7 @@ Result<Reached> encode(FrameSource& frames, Spool& spool, const EncodeOptions& o
 {
     return within_memory([&]() -> Result<Reached> {
         MESHREEL_CHECK(validate_still(frames.still()));
-        MESHREEL_CHECK(check_quality(options.quality));
-        MESHREEL_CHECK(check_effort(options.effort));
-        MESHREEL_CHECK(check_base(frames.still(), options));
+        MESHREEL_CHECK(check_options(frames.still(), options));
         const codecs::Codec* codec = codecs::find(options.codec);
         if (codec == nullptr) return usage(concat("there is no codec \"", options.codec, "\""));
         if (codec->exact() && asks_anything(options.quality))

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "meshreel/base/text.h"
+#include "meshreel/tune/effort.h"
 
 namespace meshreel {
 
 namespace {
 
-Error quality_usage(std::string message)
+Error goal_usage(std::string message)
 {
     return {ErrorCode::usage, std::move(message), {}, {}, {}};
 }
@@ -31,24 +32,49 @@ std::vector<NamedTarget> targets_of(const Quality& quality)
             {"bpfv", quality.bpfv}};
 }
 
-} // namespace
-
 Status check_quality(const Quality& quality)
 {
     std::vector<const char*> asked;
     for (const auto& [name, value] : targets_of(quality)) {
         if (value) asked.push_back(name);
-        if (value && !(*value > 0 && std::isfinite(*value))) return quality_usage(concat(name, " must be above 0"));
+        if (value && !(*value > 0 && std::isfinite(*value))) return goal_usage(concat(name, " must be above 0"));
     }
     if (quality.bases) asked.push_back("bases");
     if (quality.step) asked.push_back("step");
     const bool by_hand = asked.size() == 2 && quality.bases && quality.step;
     if (asked.size() > 1 && !by_hand)
-        return quality_usage(concat(asked[0], " and ", asked[1], " exclude each other: one target, or bases and step"));
-    if (quality.step && !(*quality.step > 0 && std::isfinite(*quality.step)))
-        return quality_usage("step must be above 0");
-    if (quality.bases && *quality.bases == 0) return quality_usage("bases must be above 0");
+        return goal_usage(concat(asked[0], " and ", asked[1], " exclude each other: one target, or bases and step"));
+    if (quality.step && !(*quality.step > 0 && std::isfinite(*quality.step))) return goal_usage("step must be above 0");
+    if (quality.bases && *quality.bases == 0) return goal_usage("bases must be above 0");
     return Ok{};
+}
+
+Status check_effort(int effort)
+{
+    if (effort >= tune::least_effort && effort <= tune::most_effort) return Ok{};
+    return goal_usage(concat("effort must be ", tune::least_effort, " to ", tune::most_effort, ", not ", effort));
+}
+
+Status check_base(const Animation& animation, const EncodeOptions& options)
+{
+    if (options.order != Order::base)
+        return options.base == nullptr ? Status(Ok{}) : goal_usage("a base mesh is given, but the order is not base");
+    if (options.base == nullptr) return goal_usage("order base needs a base mesh");
+    if (options.base->vertex_count != animation.vertex_count)
+        return goal_usage(concat("the base mesh has ", options.base->vertex_count, " vertices, the animation ",
+                                 animation.vertex_count));
+    if (options.base->triangles != animation.triangles)
+        return goal_usage("the base mesh has other triangles than the animation");
+    return Ok{};
+}
+
+} // namespace
+
+Status check_options(const Animation& still, const EncodeOptions& options)
+{
+    MESHREEL_CHECK(check_quality(options.quality));
+    MESHREEL_CHECK(check_effort(options.effort));
+    return check_base(still, options);
 }
 
 bool asks_anything(const Quality& quality)

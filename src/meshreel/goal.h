@@ -24,8 +24,9 @@ inline constexpr double unseen_sted = 0.02;
 inline constexpr double unseen_percent = 1.0;         ///< largest error beside it, percent of the body diagonal
 inline constexpr double unseen_points_percent = 0.05; ///< where there are no edges that STED could look at
 
-/// At most one target, above 0; or bases and step. @fails usage, naming what excludes what.
-Status check_quality(const Quality& quality);
+/// At most one target, above 0, or bases and step; an effort that there is; a base mesh where the order needs one, of the
+/// animation's triangles. @fails usage, naming what excludes what.
+Status check_options(const Animation& still, const EncodeOptions& options);
 
 /// Whether anything at all is asked for.
 bool asks_anything(const Quality& quality);

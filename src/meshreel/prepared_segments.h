@@ -43,6 +43,7 @@ public:
 
     std::size_t count() const { return spans_.size(); }
     FrameSpan span(std::size_t s) const { return spans_[s]; }
+    std::span<const FrameSpan> spans() const { return spans_; }
     std::size_t longest() const;
     std::size_t max_bases() const { return max_bases_; }
     std::span<const Spectrum> spectra() const { return spectra_; }

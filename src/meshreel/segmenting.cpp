@@ -92,6 +92,22 @@ std::size_t longest_segment(std::uint32_t coded_vertices, bool exact)
     return static_cast<std::size_t>(std::clamp(fitting, 32.0, most));
 }
 
+std::size_t longest_rich_segment(std::uint32_t coded_vertices)
+{
+    constexpr double memory = 1.2e9, fixed = 1100;
+    constexpr double a_frame = 12 + 3 * 16; // frames, and coefficients asked for and decoded
+    return static_cast<std::size_t>(std::max((memory / coded_vertices - fixed) / a_frame, 32.0));
+}
+
+std::vector<FrameSpan> divided(std::span<const FrameSpan> segments, std::size_t longest)
+{
+    std::vector<FrameSpan> parts;
+    for (const FrameSpan& segment : segments)
+        for (const FrameSpan& part : equal_segments(segment.count, longest))
+            parts.push_back({segment.first + part.first, part.count});
+    return parts;
+}
+
 SegmentSample::SegmentSample(Matrix<float> frames, std::uint32_t coded_vertices)
     : frames_(std::move(frames)), spectra_(frames_.view()), coded_vertices_(coded_vertices)
 {

@@ -25,6 +25,12 @@ std::vector<FrameSpan> equal_segments(std::size_t F, std::size_t longest);
 /// loses nothing the best guess so far, and the walk, take their room too.
 std::size_t longest_segment(std::uint32_t coded_vertices, bool exact);
 
+/// How many frames fit in as much memory where components may be as many as numbers of a trajectory, 3F.
+std::size_t longest_rich_segment(std::uint32_t coded_vertices);
+
+/// Each segment longer than allowed in equal parts. @pre longest >= 1
+std::vector<FrameSpan> divided(std::span<const FrameSpan> segments, std::size_t longest);
+
 /// The components of a run of frames.
 struct Spectrum {
     std::size_t frame_count = 0;

@@ -81,3 +81,20 @@ TEST(Pca, IsTheSameForAnyNumberOfThreads)
     EXPECT_EQ(one.basis.values, three.basis.values);
     EXPECT_EQ(one.singular_values, three.singular_values);
 }
+
+TEST(Pca, WhatReplacingCoefficientsChangesIsTheSumOverAllTrajectories)
+{
+    Random random(11);
+    constexpr std::size_t N = 1500, K = 4, n = 9;
+    Matrix<double> C(N, K), D(N, K), basis(K, n);
+    for (Matrix<double>* matrix : {&C, &D, &basis})
+        for (double& x : matrix->values) x = random.uniform(-1, 1);
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = 0; j < n; ++j) {
+            double off = 0;
+            for (std::size_t k = 0; k < K; ++k) off += (C(i, k) - D(i, k)) * basis(k, j);
+            sum += off * off;
+        }
+    EXPECT_NEAR(linalg::squared_distance(C.view(), D.view(), basis.view()), sum, 1e-9 * sum);
+}

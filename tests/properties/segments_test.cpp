@@ -7,6 +7,7 @@
 #include "meshreel/metrics/kg.h"
 #include "meshreel/metrics/sted.h"
 #include "meshreel/metrics/vertex_error.h"
+#include "meshreel/segmenting.h"
 
 using namespace meshreel;
 
@@ -205,4 +206,20 @@ TEST(Segments, AMotionThatComesBackIsNotCut)
     const Encoded chosen = at_kg(again, 0), cut = at_kg(again, 150);
     EXPECT_EQ(lengths_of(chosen.bytes), (std::vector<std::uint64_t>{450}));
     EXPECT_LT(chosen.bytes.size(), 0.7 * static_cast<double>(cut.bytes.size()));
+}
+
+TEST(Segments, OnesThatAreTooLongAreDividedEvenlyAndOthersLeft)
+{
+    const std::vector<FrameSpan> whole{{0, 7}, {7, 3}};
+    std::vector<std::pair<std::size_t, std::size_t>> parts;
+    for (const FrameSpan& part : divided(whole, 3)) parts.emplace_back(part.first, part.count);
+    EXPECT_EQ(parts, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {2, 2}, {4, 3}, {7, 3}}));
+}
+
+TEST(Segments, AreShorterWhereComponentsMayBeAsManyAsNumbersOfATrajectory)
+{
+    for (std::uint32_t W : {50'000u, 150'000u, 300'000u}) {
+        EXPECT_LT(longest_rich_segment(W), longest_segment(W, false));
+        EXPECT_LE((12.0 + 3 * 16) * static_cast<double>(longest_rich_segment(W)) * W, 1.2e9);
+    }
 }

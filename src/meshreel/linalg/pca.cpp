@@ -246,10 +246,16 @@ Projection project(MatrixView<const float> frames, std::span<const double> mean,
 double squared_distance(MatrixView<const double> C, MatrixView<const double> D, MatrixView<const double> basis)
 {
     if (basis.rows == 0) return 0.0;
-    Matrix<double> difference(C.rows, C.cols);
-    std::ranges::transform(C.values(), D.values(), difference.values.begin(), std::minus());
-    const Factor off = columns_of(difference.view());
-    return product(rows_of(basis), rows_of(basis), basis.cols).cwiseProduct(product(off, off, C.rows)).sum();
+    const auto K = static_cast<Index>(C.cols);
+    Columns G = Columns::Zero(K, K);
+    Matrix<double> off(std::min(C.rows, std::size_t{block}), C.cols);
+    for (std::size_t first = 0; first < C.rows; first += block) {
+        const std::size_t count = std::min(C.rows - first, std::size_t{block}), at = first * C.cols;
+        std::transform(C.data + at, C.data + at + count * C.cols, D.data + at, off.values.begin(), std::minus());
+        const Factor part = columns_of({off.values.data(), count, C.cols});
+        add_product(part, part, count, {G.data(), C.cols});
+    }
+    return product(rows_of(basis), rows_of(basis), basis.cols).cwiseProduct(G).sum();
 }
 
 std::vector<double> mean_absolute(MatrixView<const double> C)
