@@ -32,6 +32,8 @@ struct Counts {
     const char* clip;
     std::uint32_t vertices;
     std::size_t triangles, frames;
+
+    friend std::ostream& operator<<(std::ostream& out, const Counts& of) { return out << of.name << ' ' << of.clip; }
 };
 
 } // namespace
