@@ -177,7 +177,7 @@ private:
     /// Relaxing, and where that pays, guesses that keep lengths too.
     Status try_lengths(Attempt& best)
     {
-        constexpr double telling = 0.1; // lengths that vary more than this part of the error hardly mend it
+        constexpr double telling = 0.5; // lengths that vary more than this part of the error hardly mend it
         if (!(problem_.spread <= telling * best.mean_square)) return Ok{};
         for (bool Settings::*way : {&Settings::relax, &Settings::lengths}) {
             MESHREEL_TRY(const bool pays, try_way(best, way));

@@ -38,7 +38,7 @@ struct Problem {
     bool rises = true;            ///< the excess rises with the step, as errors do; sizes fall
     std::vector<Knob> knobs = {}; ///< varied one after another, each for as long as it pays
     int rounds = 1;               ///< how often all of them
-    double spread = std::numeric_limits<double>::infinity(); ///< of lengths, Meter::length_spread; where it is a tenth
+    double spread = std::numeric_limits<double>::infinity(); ///< of lengths, Meter::length_spread; where it is half
                                                              ///< of what attempts are off at most, Settings::relax is
                                                              ///< tried before the knobs, then Settings::lengths
     Progress progress = {};
