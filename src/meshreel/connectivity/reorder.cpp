@@ -125,6 +125,18 @@ private:
     RankSet unvisited_, unused_;
 };
 
+/// Clears all that are the one. Returns how many they were. Without a branch: compilers make vectors of it.
+template <std::size_t size>
+std::uint32_t take_all(std::array<std::uint32_t, size>& values, std::uint32_t one)
+{
+    std::uint32_t alike = 0;
+    for (std::uint32_t& value : values) {
+        alike += value == one ? 1 : 0;
+        value = value == one ? none : value;
+    }
+    return alike;
+}
+
 template <class Coder>
 class OrderCoder {
 public:
@@ -223,8 +235,7 @@ private:
             const std::uint8_t move = order[place];
             const std::uint32_t k = value[move];
             if (k == none) continue;
-            const auto alike = static_cast<std::uint32_t>(std::count(value.begin(), value.end(), k));
-            std::replace(value.begin(), value.end(), k, none);
+            const std::uint32_t alike = take_all(value, k);
             if (!moves_.code(coder_, move, contexts(k, alike, place), wanted == k)) continue;
             order.right(place);
             hits_ = {move, hits_[0], hits_[1], hits_[2]};
@@ -351,8 +362,7 @@ private:
             const std::uint8_t kind = guess_order_[j][place];
             const std::uint32_t number = value[kind];
             if (number == none) continue;
-            const auto alike = static_cast<std::uint32_t>(std::count(value.begin(), value.end(), number));
-            std::replace(value.begin(), value.end(), number, none);
+            const std::uint32_t alike = take_all(value, number);
             const std::uint32_t now = hits_[0] * 3u + j,
                                 features = std::min(alike, 3u) * 4 +
                                            std::min<std::uint32_t>(static_cast<std::uint32_t>(place), 3u);
