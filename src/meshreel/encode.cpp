@@ -33,10 +33,9 @@ namespace {
 struct FastWay {
     std::uint32_t growth, neighbours;
 };
-constexpr std::array<FastWay, 6> fast_ways{
-    {{24, 9}, {24, 10}, {12, 10}, {8, 12}, {4, 14}, {4, 16}}}; // the fastest first
-constexpr double most_for_fast = 1.09;                         // what one may cost at the same step
-constexpr double nearly_missed = 0.99;                         // of the largest error allowed
+constexpr std::array<FastWay, 5> fast_ways{{{24, 10}, {12, 10}, {8, 12}, {4, 14}, {4, 16}}}; // the fastest first
+constexpr double most_for_fast = 1.09;   // what one may cost at the same step
+constexpr double nearly_missed = 0.99;   // of the largest error allowed
 constexpr std::size_t usual_bases = 256; // enough for nearly every target; more are prepared when it is not
 
 Error usage(std::string message)
@@ -101,6 +100,7 @@ private:
             plan_.knobs,
             plan_.rounds,
             spread,
+            plan_.telling,
             options_.progress,
             [&](tune::Attempt attempt) { return mended(std::move(attempt)); },
         };

@@ -8,22 +8,24 @@ namespace meshreel::tune {
 
 namespace {
 
-/// Of each effort: how seldom weights are found anew, how many of the knobs are varied, how often.
+/// Of each effort: how seldom weights are found anew, how many of the knobs are varied, how often; how much lengths may
+/// vary, in parts of the error, where relaxing is tried.
 struct EffortRow {
     std::uint32_t growth;
     std::size_t knobs;
     int rounds;
+    double telling;
 };
 constexpr std::array<EffortRow, most_effort> effort_rows{{
-    {64, 0, 1},
-    {16, 0, 1},
-    {12, 0, 1},
-    {8, 0, 1},
-    {4, 1, 1},
-    {4, 3, 1},
-    {3, 4, 1},
-    {2, 5, 1},
-    {1, 5, 5},
+    {64, 0, 1, 0.1},
+    {16, 0, 1, 0.1},
+    {12, 0, 1, 0.1},
+    {8, 0, 1, 0.1},
+    {4, 1, 1, 0.1},
+    {4, 3, 1, 0.5},
+    {3, 4, 1, 0.5},
+    {2, 5, 1, 0.5},
+    {1, 5, 5, 0.5},
 }};
 
 } // namespace
@@ -45,6 +47,7 @@ Plan plan_of(int effort, Tune tune)
                   {&codecs::Settings::first_ratio, 1.25, 0.2, 2.0}};
     plan.knobs.resize(row.knobs);
     plan.rounds = row.rounds;
+    plan.telling = row.telling;
     return plan;
 }
 

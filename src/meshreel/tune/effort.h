@@ -23,6 +23,7 @@ struct Plan {
     codecs::Settings start; ///< all but the step
     std::vector<Knob> knobs;
     int rounds = 1;
+    double telling = 0.1; ///< as in Problem
 };
 
 /// @pre effort in [least_effort, most_effort]

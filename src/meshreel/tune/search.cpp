@@ -177,8 +177,7 @@ private:
     /// Relaxing, and where that pays, guesses that keep lengths too.
     Status try_lengths(Attempt& best)
     {
-        constexpr double telling = 0.5; // lengths that vary more than this part of the error hardly mend it
-        if (!(problem_.spread <= telling * best.mean_square)) return Ok{};
+        if (!(problem_.spread <= problem_.telling * best.mean_square)) return Ok{};
         for (bool Settings::*way : {&Settings::relax, &Settings::lengths}) {
             MESHREEL_TRY(const bool pays, try_way(best, way));
             if (!pays) break;
@@ -219,7 +218,7 @@ private:
     {
         constexpr int most_moves = 3;
         constexpr double worth_it = 0.001;
-        for (double factor : {knob.factor, 1.0 / knob.factor}) {
+        for (double factor : {1.0 / knob.factor, knob.factor}) {
             bool moved = false;
             for (int move = 0; move < most_moves; ++move) {
                 Settings settings = best.settings;

@@ -38,9 +38,9 @@ struct Problem {
     bool rises = true;            ///< the excess rises with the step, as errors do; sizes fall
     std::vector<Knob> knobs = {}; ///< varied one after another, each for as long as it pays
     int rounds = 1;               ///< how often all of them
-    double spread = std::numeric_limits<double>::infinity(); ///< of lengths, Meter::length_spread; where it is half
-                                                             ///< of what attempts are off at most, Settings::relax is
-                                                             ///< tried before the knobs, then Settings::lengths
+    double spread = std::numeric_limits<double>::infinity(); ///< of lengths, Meter::length_spread
+    double telling = 0.1; ///< where the spread is this part of what attempts are off at most, Settings::relax is tried
+                          ///< before the knobs, then Settings::lengths
     Progress progress = {};
     std::function<Result<Attempt>(Attempt)> mend = {}; ///< the same settings again, where a few vertices miss the limit
 };
