@@ -27,44 +27,42 @@ public:
 
     /// Holds these points from now on and no others. reach > 0: the farthest that will be asked for.
     /// @cost O(points)
-    void fill(std::span<const Point> points, double reach)
-    {
-        scale_ = 1.0 / (1.001 * reach); // a little more, for what is rounded
-        while (shift_ > 32 && std::size_t{1} << (64 - shift_) < 2 * points.size()) --shift_;
-        begins_.assign((std::size_t{1} << (64 - shift_)) + 1, 0);
-        cubes_.resize(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            cubes_[i] = key(cube_of(points[i]));
-            ++begins_[slot(cubes_[i])];
-        }
-        for (std::size_t s = 1; s < begins_.size(); ++s) begins_[s] += begins_[s - 1]; // where slots end, so far
-        held_.resize(points.size());
-        for (std::size_t i = points.size(); i-- > 0;)
-            held_[--begins_[slot(cubes_[i])]] = {points[i], cubes_[i], static_cast<std::uint32_t>(i)};
-    }
+    void fill(std::span<const Point> points, double reach);
 
-    /// Calls visit(i, squared distance) for all of the first `limit` points that are nearer than the reach, and for some
-    /// that are not.
-    template <class Visit>
-    void near(const Point& place, std::size_t limit, const Visit& visit) const
-    {
-        const Cube middle = cube_of(place);
-        for (std::uint64_t z = middle[2] - 1; z != middle[2] + 2; ++z)
-            for (std::uint64_t y = middle[1] - 1; y != middle[1] + 2; ++y)
-                for (std::uint64_t x = middle[0] - 1; x != middle[0] + 2; ++x) {
-                    const std::uint64_t cube = key({x, y, z}), s = slot(cube);
-                    for (std::size_t i = begins_[s]; i < begins_[s + 1] && held_[i].index < limit; ++i)
-                        if (held_[i].cube == cube) visit(held_[i].index, squared_gap(place, held_[i].point));
-                }
-    }
+    /// Points found near a place.
+    struct Found {
+        std::size_t count = 0;
+        std::vector<double> squares; ///< [count and more] squared distances
+        std::vector<std::uint32_t> points;
+
+        /// Puts the nearest into `nearest`, in order, of equally near ones those of smaller numbers first.
+        /// @return how many there are, at most its size.
+        std::size_t sorted(std::span<std::uint32_t> nearest) const;
+    };
+    /// Of the first `limit` points those whose squared distance is at most bound <= reach^2, in no order.
+    void near(const Point& place, std::size_t limit, double bound, Found& found) const;
 
 private:
-    using Cube = std::array<std::uint64_t, 3>;
+    static constexpr std::size_t block = 8;
 
+    using Cube = std::array<std::uint64_t, 3>;
+    using Squares = std::array<double, block>;
+
+    using Gaps = std::array<double, 3>; ///< squared distances to the cubes before, around and after a place
+
+    struct Placed {
+        std::uint64_t row;
+        std::uint32_t slot;
+    };
     struct Held {
-        Point point;
-        std::uint64_t cube;
-        std::uint32_t index; ///< rises within a slot
+        std::uint64_t row;
+        std::uint32_t index;
+    };
+    struct Search {
+        const Point& place;
+        std::uint64_t row;
+        std::size_t limit;
+        double bound;
     };
 
     Cube cube_of(const Point& p) const
@@ -75,25 +73,36 @@ private:
             cube[c] = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min((p[c] - low_[c]) * scale_, most)));
         return cube;
     }
-    /// Cubes far apart may share a key; neighbours never do.
-    static std::uint64_t key(const Cube& cube)
+    /// A little less, for what is rounded.
+    Gaps gaps(const Point& place, const Cube& middle, std::size_t c) const
     {
-        constexpr std::uint64_t mask = (1u << 21) - 1;
-        return (cube[0] & mask) | (cube[1] & mask) << 21 | (cube[2] & mask) << 42;
+        const double in = (place[c] - low_[c]) * scale_ - static_cast<double>(middle[c]), least = 1e-6,
+                     side = 1 / scale_;
+        const double before = std::max(in - least, 0.0) * side, after = std::max(1 - in - least, 0.0) * side;
+        return {before * before, 0.0, after * after};
+    }
+    /// Rows far apart may share a number; neighbours never do.
+    static std::uint64_t row_of(std::uint64_t y, std::uint64_t z)
+    {
+        constexpr std::uint64_t mask = (std::uint64_t{1} << 32) - 1;
+        return (y & mask) | z << 32;
     }
     /// Cubes in a row stand side by side: those around a place are in nine parts of memory, not in 27.
-    std::size_t slot(std::uint64_t key) const
+    std::size_t slot(std::uint64_t row, std::uint64_t x) const
     {
-        const std::uint64_t x = key & ((1u << 21) - 1), row = (key >> 21) * 0x9e3779b97f4a7c15u >> shift_;
-        return static_cast<std::size_t>((row + x) & (begins_.size() - 2));
+        return static_cast<std::size_t>(((row * 0x9e3779b97f4a7c15u >> shift_) + x) & (begins_.size() - 2));
     }
+    void look(const Search& search, std::size_t begin, std::size_t end, Found& found) const;
+    /// Squared distances of the points held from `begin` on.
+    Squares squares_from(std::size_t begin, const Point& place) const;
 
     Point low_;
     double scale_ = 1.0;
-    int shift_ = 60;                    ///< the hash keeps the bits above
-    std::vector<std::uint32_t> begins_; ///< [slots + 1] places in held_
-    std::vector<std::uint64_t> cubes_;
-    std::vector<Held> held_;
+    int shift_ = 60;                        ///< the hash keeps the bits above
+    std::vector<std::uint32_t> begins_;     ///< [slots + 1] places in held_
+    std::vector<Placed> cubes_;             ///< [points]
+    std::vector<Held> held_;                ///< slot after slot
+    std::array<std::vector<double>, 3> at_; ///< [points held, and as many as fill a block] their coordinates
 };
 
 } // namespace meshreel

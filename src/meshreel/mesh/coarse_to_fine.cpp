@@ -95,10 +95,11 @@ private:
     {
         if (!(squared_spacing > 0)) return;
         if (squared_spacing < 0.6 * squared_reach_) gather(squared_spacing);
-        cells_.near(taken, left_.size(), [&](std::uint32_t i, double square) {
-            double& nearest = nearest_[left_[i]];
-            if (square < squared_spacing) nearest = std::min(nearest, square);
-        });
+        cells_.near(taken, left_.size(), squared_spacing, found_);
+        for (std::size_t i = 0; i < found_.count; ++i) {
+            double& nearest = nearest_[left_[found_.points[i]]];
+            nearest = std::min(nearest, found_.squares[i]);
+        }
     }
 
     /// Sorts the points that are not taken into a finer grid.
@@ -117,45 +118,8 @@ private:
     std::vector<double> nearest_;                     ///< [N] squared distance to those taken, -1 of those themselves
     std::vector<std::uint32_t> left_;                 ///< in the grid
     Cells cells_;
+    Cells::Found found_;
     double squared_reach_ = std::numeric_limits<double>::infinity(); ///< of the grid
-};
-
-/// The nearest of the points before a limit.
-class Neighbourhood {
-public:
-    Neighbourhood(const Cells& cells, double reach) : cells_(cells), squared_reach_(reach * reach) {}
-
-    /// Fills the row with places in the order. Returns how many there are within the reach, at most as many as wanted.
-    std::size_t find(const Point& point, std::size_t limit, std::span<std::uint32_t> row)
-    {
-        const std::size_t wanted = row.size();
-        near_.resize(wanted);
-        std::size_t count = 0;
-        Near bound{squared_reach_, 0};
-        cells_.near(point, limit, [&](std::uint32_t place, double square) {
-            const Near one{square, place};
-            if (!(one < bound)) return;
-            std::size_t i = count < wanted ? count++ : wanted - 1;
-            for (; i > 0 && one < near_[i - 1]; --i) near_[i] = near_[i - 1];
-            near_[i] = one;
-            if (count == wanted) bound = near_[wanted - 1];
-        });
-        for (std::size_t i = 0; i < count; ++i) row[i] = near_[i].place;
-        return count;
-    }
-
-private:
-    struct Near {
-        double square;
-        std::uint32_t place;
-        bool operator<(const Near& other) const
-        {
-            return square != other.square ? square < other.square : place < other.place;
-        }
-    };
-    const Cells& cells_;
-    double squared_reach_;
-    std::vector<Near> near_; ///< [wanted] the nearest so far, in order
 };
 
 /// Finds the neighbours of all points, a few levels at a time, from fine to coarse: whoever has too few within reach asks
@@ -189,14 +153,15 @@ private:
     /// Those who are pending and find enough, or all, are done.
     void look(double reach, Threads threads)
     {
-        cells_.fill(std::span(ordered_).first(*std::max_element(pending_.begin(), pending_.end())), reach);
+        cells_.fill(std::span(ordered_).first(limits_[*std::max_element(pending_.begin(), pending_.end())]), reach);
         constexpr std::size_t block = 128;
         parallel_for((pending_.size() + block - 1) / block, threads, [&](std::size_t task) {
-            Neighbourhood neighbourhood(cells_, reach);
+            Cells::Found near;
             for (std::size_t i = task * block; i < std::min(pending_.size(), (task + 1) * block); ++i) {
                 const std::uint32_t place = pending_[i];
                 const std::span<std::uint32_t> row = result_.nearest.row(result_.order[place]);
-                const std::size_t found = neighbourhood.find(ordered_[place], limits_[place], row);
+                cells_.near(ordered_[place], limits_[place], reach * reach, near);
+                const std::size_t found = near.sorted(row);
                 if (found < row.size() && reach < diagonal_) continue;
                 for (std::uint32_t& other : row.first(found)) other = result_.order[other];
                 pending_[i] = done;

@@ -25,7 +25,7 @@ struct CoarseToFine {
 /// is at least half the diagonal of the bounding box over 1.1^l; the last level takes the rest. Whatever is not finite
 /// counts as 0. n: nearest points wanted of each. The same result on every machine and for any number of threads.
 /// Of points equally near those count as nearer that come first in the order.
-/// @cost O(n N) for surfaces; memory 4 n N + 150 N bytes.
+/// @cost O(n N) for surfaces; memory 4 n N + 160 N bytes.
 CoarseToFine coarse_to_fine(MatrixView<const double> X, std::size_t n, Threads threads);
 
 } // namespace meshreel
