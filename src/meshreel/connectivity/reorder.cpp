@@ -42,10 +42,14 @@ class Walked {
 public:
     Walked(std::uint32_t vertex_count, std::span<const Triangle> triangles)
         : mesh_(adjacency(vertex_count, triangles)), visited_(triangles.size()), number_(vertex_count, none),
-          vertex_(vertex_count, none), corner_(vertex_count, none), frontier_(triangle_count(), false),
-          stamp_(triangles.size(), none), unvisited_(triangle_count(), true), unused_(vertex_count, true)
+          vertex_(vertex_count, none), corner_(vertex_count, none), left_(vertex_count, 0),
+          frontier_(triangle_count(), false), stamp_(triangles.size(), none), unvisited_(triangle_count(), true),
+          unused_(vertex_count, true)
     {
-        for (std::uint32_t h = 3 * triangle_count(); h-- > 0;) corner_[mesh_.from(h)] = h;
+        for (std::uint32_t h = 3 * triangle_count(); h-- > 0;) {
+            corner_[mesh_.from(h)] = h;
+            ++left_[mesh_.from(h)];
+        }
     }
 
     const Adjacency& mesh() const { return mesh_; }
@@ -71,6 +75,7 @@ public:
     /// The first unvisited triangle met when turning about the origin of h, or none within a few steps.
     std::uint32_t around(std::uint32_t h, bool clockwise) const
     {
+        if (left_[mesh_.from(h)] == 0) return none;
         for (int step = 0; step < 12 && h != none; ++step) {
             if (!visited(h / 3)) return h / 3;
             h = clockwise ? mesh_.twin[h] : mesh_.twin[previous_half(h)];
@@ -82,6 +87,7 @@ public:
     std::uint32_t at_number(std::uint32_t number) const
     {
         if (number >= vertex_.size() || vertex_[number] == none) return none;
+        if (left_[vertex_[number]] == 0) return none;
         const std::uint32_t corner = corner_[vertex_[number]];
         const std::uint32_t found = around(corner, false);
         return found != none ? found : around(corner, true);
@@ -101,6 +107,7 @@ public:
         unvisited_.erase(k);
         if (stamp_[k] != none) frontier_.erase(stamp_[k]);
         for (std::uint32_t h = 3 * k; h < 3 * k + 3; ++h) {
+            --left_[mesh_.from(h)];
             const std::uint32_t other = across(h);
             if (other == none || visited(other) || stamp_[other] != none) continue;
             stamp_[other] = static_cast<std::uint32_t>(stamped_.size());
@@ -120,6 +127,7 @@ private:
     std::vector<std::uint8_t> visited_;
     std::vector<std::uint32_t> number_, vertex_; ///< [W] number of each vertex and back, none where not yet known
     std::vector<std::uint32_t> corner_;          ///< [W] a corner of each vertex
+    std::vector<std::uint32_t> left_;            ///< [W] corners of unvisited triangles at each vertex
     RankSet frontier_;                           ///< stamps of unvisited triangles beside visited ones
     std::vector<std::uint32_t> stamp_, stamped_; ///< when a triangle came to the frontier, and back
     RankSet unvisited_, unused_;
