@@ -82,8 +82,29 @@ private:
     {
         std::uint32_t age = 0; // 3 an octave of the rank
         for (std::size_t r = frame.rank; r > 0; r /= 2) ++age;
+        look_around(near, batch);
         for (std::size_t c = batch.first; c < batch.last; ++c)
-            code_value(near, {frame.f, c, std::min(age, ages - 1)}, batch.Y);
+            code_value({frame.f, c, std::min(age, ages - 1)}, guess_[c - batch.first], nearby_[c - batch.first],
+                       batch.Y);
+    }
+
+    /// Fills `guess_` and `nearby_`: how large the levels of the neighbours are, 4 where there are none.
+    void look_around(const PoseOrder::Neighbours& near, const Batch& batch)
+    {
+        const std::size_t size = batch.last - batch.first;
+        guess_.assign(size, 0.0);
+        nearby_.assign(size, near.count > 0 ? 0.0 : 4.0);
+        double shares = 0;
+        for (std::size_t i = 0; i < near.count; ++i) {
+            const double* __restrict values = batch.Y.row(near.frames[i]).data() + batch.first;
+            const std::uint8_t* __restrict sizes = levels_seen_.row(near.frames[i]).data() + batch.first;
+            const double weight = near.weights[i], share = 1.0 / static_cast<double>(1 + i);
+            for (std::size_t c = 0; c < size; ++c) guess_[c] += weight * values[c];
+            for (std::size_t c = 0; c < size; ++c) nearby_[c] += share * sizes[c];
+            shares += share;
+        }
+        if (near.count > 0)
+            for (double& nearby : nearby_) nearby /= shares;
     }
 
     struct Place {
@@ -91,16 +112,8 @@ private:
         std::uint32_t age;
     };
 
-    void code_value(const PoseOrder::Neighbours& near, const Place& place, MatrixView<double> Y)
+    void code_value(const Place& place, double guess, double nearby, MatrixView<double> Y)
     {
-        double guess = 0, sizes = 0, shares = 0;
-        for (std::size_t i = 0; i < near.count; ++i) {
-            const double share = 1.0 / static_cast<double>(1 + i);
-            guess += near.weights[i] * Y(near.frames[i], place.c);
-            sizes += share * levels_seen_(near.frames[i], place.c);
-            shares += share;
-        }
-        const double nearby = near.count > 0 ? sizes / shares : 4.0;
         double& value = Y(place.f, place.c);
         double &own = own_[place.f], &usual = usual_[place.c];
         const double expected = 0.4 * nearby + 0.35 * own + 0.25 * usual;
@@ -120,9 +133,10 @@ private:
     Core& core_;
     coding::Quantiser quantiser_;
     coding::MixedLevels<3> levels_;
-    Matrix<std::uint8_t> levels_seen_; ///< magnitudes [F x 3(K+1)], up to 255
-    std::vector<double> own_;          ///< [F] how large the levels of a frame have been of late
-    std::vector<double> usual_;        ///< [3(K+1)] and those of a column
+    Matrix<std::uint8_t> levels_seen_;   ///< magnitudes [F x 3(K+1)], up to 255
+    std::vector<double> own_;            ///< [F] how large the levels of a frame have been of late
+    std::vector<double> usual_;          ///< [3(K+1)] and those of a column
+    std::vector<double> guess_, nearby_; ///< of a frame's batch
 };
 
 } // namespace meshreel::codecs

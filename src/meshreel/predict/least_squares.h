@@ -26,40 +26,44 @@ public:
     /// error: what y was less predict(u).
     void learn(const Features& u, double error)
     {
-        Features gain{};
+        Row gain{};
         double power = memory_;
         for (std::size_t j = 0; j < n; ++j) // P is symmetric: no sum waits for itself
-            for (std::size_t i = 0; i < n; ++i) gain[i] += P_[j][i] * u[j];
+            for (std::size_t i = 0; i < width; ++i) gain[i] += P_[j][i] * u[j];
         for (std::size_t i = 0; i < n; ++i) power += gain[i] * u[i];
         const double scale = 1.0 / power;
         double largest = 0;
         for (std::size_t i = 0; i < n; ++i) {
             w_[i] += gain[i] * scale * error;
-            for (std::size_t j = 0; j < n; ++j) P_[i][j] -= gain[i] * gain[j] * scale;
+            for (std::size_t j = 0; j < width; ++j) P_[i][j] -= gain[i] * gain[j] * scale;
             largest = P_[i][i] > largest ? P_[i][i] : largest;
         }
         if (largest < most_doubt) forget();
     }
 
 private:
-    static constexpr double most_doubt = 100.0; ///< where nothing new is seen, nothing old is forgotten
+    static constexpr double most_doubt = 100.0;           ///< where nothing new is seen, nothing old is forgotten
+    static constexpr std::size_t width = (n + 3) / 4 * 4; ///< of rows, the rest 0: they fill registers
+
+    using Row = std::array<double, width>;
 
     void forget()
     {
-        for (Features& row : P_)
-            for (double& value : row) value *= 1.0 / memory_;
+        const double inverse = 1.0 / memory_;
+        for (Row& row : P_)
+            for (std::size_t j = 0; j < width; ++j) row[j] *= inverse;
     }
 
-    static constexpr std::array<Features, n> unit()
+    static constexpr std::array<Row, n> unit()
     {
-        std::array<Features, n> matrix{};
+        std::array<Row, n> matrix{};
         for (std::size_t i = 0; i < n; ++i) matrix[i][i] = 1.0;
         return matrix;
     }
 
     double memory_;
     Features w_{};
-    std::array<Features, n> P_ = unit(); ///< inverse correlation of the features
+    std::array<Row, n> P_ = unit(); ///< inverse correlation of the features
 };
 
 } // namespace meshreel::predict
