@@ -14,7 +14,7 @@ cp /usr/include/xxhash.h $out/include/
 rooms=(
     wasm/*.cpp src/meshreel/level.cpp
     src/meshreel/base/{exact,limits,result,text}.cpp
-    src/meshreel/mesh/{animation,charts,coarse_surface,coarse_to_fine,corner_table,frame_mix,reorder,surface_part}.cpp
+    src/meshreel/mesh/{animation,cells,charts,coarse_surface,coarse_to_fine,corner_table,frame_mix,reorder,surface_part}.cpp
     src/meshreel/coding/*.cpp src/meshreel/predict/*.cpp src/meshreel/connectivity/*.cpp
     src/meshreel/container/{attributes,chunks,fields,package,segments,stream,stream_head,unpack_words,unsqueeze,word_walk}.cpp
     src/meshreel/codecs/*.cpp

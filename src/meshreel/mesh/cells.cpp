@@ -85,19 +85,15 @@ void Cells::fill(std::span<const Point> points, double reach)
 void Cells::near(const Point& place, std::size_t limit, double bound, Found& found) const
 {
     const Cube middle = cube_of(place);
-    const Gaps x = gaps(place, middle, 0), y = gaps(place, middle, 1), z = gaps(place, middle, 2);
     found.count = 0;
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t j = 0; j < 3; ++j) {
-            const double square = y[j] + z[k];
-            if (square > bound) continue;
             const Search search{place, row_of(middle[1] + j - 1, middle[2] + k - 1), limit, bound};
             const std::size_t first = slot(search.row, middle[0] - 1), mask = begins_.size() - 2;
-            const std::size_t from = square + x[0] <= bound ? 0 : 1, to = square + x[2] <= bound ? 3 : 2;
             if (first + 2 <= mask)
-                look(search, begins_[first + from], begins_[first + to], found);
+                look(search, begins_[first], begins_[first + 3], found);
             else
-                for (std::size_t i = from; i < to; ++i)
+                for (std::size_t i = 0; i < 3; ++i)
                     look(search, begins_[(first + i) & mask], begins_[((first + i) & mask) + 1], found);
         }
 }

@@ -48,8 +48,6 @@ private:
     using Cube = std::array<std::uint64_t, 3>;
     using Squares = std::array<double, block>;
 
-    using Gaps = std::array<double, 3>; ///< squared distances to the cubes before, around and after a place
-
     struct Placed {
         std::uint64_t row;
         std::uint32_t slot;
@@ -72,14 +70,6 @@ private:
         for (std::size_t c = 0; c < 3; ++c)
             cube[c] = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min((p[c] - low_[c]) * scale_, most)));
         return cube;
-    }
-    /// A little less, for what is rounded.
-    Gaps gaps(const Point& place, const Cube& middle, std::size_t c) const
-    {
-        const double in = (place[c] - low_[c]) * scale_ - static_cast<double>(middle[c]), least = 1e-6,
-                     side = 1 / scale_;
-        const double before = std::max(in - least, 0.0) * side, after = std::max(1 - in - least, 0.0) * side;
-        return {before * before, 0.0, after * after};
     }
     /// Rows far apart may share a number; neighbours never do.
     static std::uint64_t row_of(std::uint64_t y, std::uint64_t z)
