@@ -95,6 +95,26 @@ TEST(Search, FindsASmallerFileWithAKnobThanWithout)
     EXPECT_LT(tune::cheapest(problem, far_off)->cost, 0.98 * tune::cheapest(plain.problem(), far_off)->cost);
 }
 
+TEST(Search, RenewsWeightsOftenerOnlyWhereThatPays)
+{
+    const auto growth_found = [](double dearer, int rounds) { // a growth of 1 costs so many times what 2 does
+        Model model;
+        tune::Problem problem = model.problem();
+        problem.attempt = [&](const codecs::Settings& settings) {
+            Result<tune::Attempt> attempt = model.attempt(settings);
+            attempt->cost *= settings.growth == 1 ? dearer : 1.0;
+            return attempt;
+        };
+        problem.knobs = {truncation};
+        problem.rounds = rounds;
+        return tune::cheapest(problem, {.step = 0.02, .growth = 2})->settings.growth;
+    };
+    EXPECT_EQ(growth_found(0.99, 2), 1u);
+    EXPECT_EQ(growth_found(0.9999, 2), 2u);
+    EXPECT_EQ(growth_found(1.01, 2), 2u);
+    EXPECT_EQ(growth_found(0.5, 1), 2u);
+}
+
 TEST(Search, SaysSoWhenNoStepReachesTheTarget)
 {
     Model model;

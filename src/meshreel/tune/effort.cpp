@@ -25,7 +25,7 @@ constexpr std::array<EffortRow, most_effort> effort_rows{{
     {4, 3, 1, 0.5},
     {3, 4, 1, 0.5},
     {2, 5, 1, 0.5},
-    {1, 5, 5, 0.5},
+    {2, 5, 5, 0.5},
 }};
 
 } // namespace

@@ -16,6 +16,7 @@ using codecs::Settings;
 constexpr double aimed_excess = 0.992; // what the next attempt aims at
 constexpr double least_excess = 0.97;  // worth verifying, and then good enough
 constexpr double most_mended = 1.5;    // beyond it too many vertices miss the limit
+constexpr double worth_it = 0.001;     // log of the price, of a move along a knob
 constexpr double no_bracket = std::numeric_limits<double>::infinity();
 
 /// The excess along the step, everything else being equal: y = log excess over x = log step, turned so that it rises.
@@ -197,12 +198,13 @@ private:
         return pays;
     }
 
-    /// All knobs, round after round; nearer by where a round moved none.
+    /// All knobs, round after round; nearer by where a round moved none. Between rounds weights are found anew oftener.
     Status vary(Attempt& best)
     {
         double nearness = 1.0;
         for (int round = 0; round < problem_.rounds; ++round) {
             bool moved = false;
+            if (round > 0) MESHREEL_CHECK(renew_oftener(best));
             for (Knob knob : problem_.knobs) {
                 knob.factor = std::pow(knob.factor, 1.0 / nearness);
                 MESHREEL_TRY(const bool by_this, descend(best, knob));
@@ -213,11 +215,21 @@ private:
         return Ok{};
     }
 
+    /// By an eighth, where that pays. From the start it would not always: it is tried where all else has its place.
+    Status renew_oftener(Attempt& best)
+    {
+        if (best.settings.growth <= 1) return Ok{};
+        Settings settings = best.settings;
+        --settings.growth;
+        MESHREEL_TRY(Attempt attempt, attempted(settings));
+        if (price(attempt) < price(best) - worth_it) best = std::move(attempt);
+        return Ok{};
+    }
+
     /// Moves along a knob for as long as it pays; whether it did.
     Result<bool> descend(Attempt& best, const Knob& knob)
     {
         constexpr int most_moves = 3;
-        constexpr double worth_it = 0.001;
         for (double factor : {1.0 / knob.factor, knob.factor}) {
             bool moved = false;
             for (int move = 0; move < most_moves; ++move) {

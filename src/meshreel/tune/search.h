@@ -37,7 +37,7 @@ struct Problem {
     std::function<Result<double>(const Attempt&)> verify;            ///< the excess that counts, of the decoded file
     bool rises = true;            ///< the excess rises with the step, as errors do; sizes fall
     std::vector<Knob> knobs = {}; ///< varied one after another, each for as long as it pays
-    int rounds = 1;               ///< how often all of them
+    int rounds = 1;               ///< how often all of them; between rounds Settings::growth falls by 1 where that pays
     double spread = std::numeric_limits<double>::infinity(); ///< of lengths, Meter::length_spread
     double telling = 0.1; ///< where the spread is this part of what attempts are off at most, Settings::relax is tried
                           ///< before the knobs, then Settings::lengths
