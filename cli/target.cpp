@@ -118,6 +118,20 @@ Animation first_frame(const Animation& animation)
     return mesh;
 }
 
+/// Saves a mesh, where one is wanted, and then the rest; where that fails, what the mesh replaced is there again.
+Status save_beside_mesh(const Target& target, const auto& make_mesh, const auto& save_rest)
+{
+    if (target.mesh_out.empty()) return save_rest();
+    MESHREEL_TRY(Former former, in_file(Former::keep(target.mesh_out), target.mesh_out));
+    MESHREEL_TRY(const Animation mesh, make_mesh());
+    io::SaveOptions options;
+    options.overwrite = target.overwrite;
+    MESHREEL_CHECK(in_file(io::save(mesh, target.mesh_out, options), target.mesh_out));
+    Status saved = save_rest();
+    if (!saved.ok()) former.bring_back();
+    return saved;
+}
+
 } // namespace
 
 void Target::declare_overwriting(CLI::App& app)
@@ -167,13 +181,9 @@ Result<Go> prepare(const Target& target, std::initializer_list<std::string> inpu
 Status save(const Animation& animation, const Target& target, Console& console)
 {
     const Stopwatch watch;
-    const bool with_mesh = !target.mesh_out.empty();
-    io::SaveOptions options;
-    options.overwrite = target.overwrite;
-    if (with_mesh) MESHREEL_CHECK(in_file(io::save(first_frame(animation), target.mesh_out, options), target.mesh_out));
-    Status saved = save_animation(animation, target, console);
-    std::error_code ignored;
-    if (with_mesh && !saved.ok()) fs::remove(target.mesh_out, ignored); // nothing is left behind
+    Status saved = save_beside_mesh(
+        target, [&] { return Result<Animation>(first_frame(animation)); },
+        [&] { return save_animation(animation, target, console); });
     if (saved.ok()) console.detail(fmt::format("{}: written in {:.3f} s", target.path, watch.seconds()));
     return saved;
 }
@@ -186,22 +196,18 @@ bool takes_frames(const Target& target)
 
 Status save(FrameSource& frames, const Target& target, Console& console)
 {
-    const bool with_mesh = !target.mesh_out.empty();
-    if (with_mesh) {
+    const auto mesh_of = [&]() -> Result<Animation> {
         Matrix<float> room;
         MESHREEL_TRY(const MatrixView<const float> first, frames.frames(0, 1, room));
         Animation mesh = frames.still();
         mesh.positions.assign(first.values().begin(), first.values().end());
         mesh.times_s.resize(1);
-        io::SaveOptions options;
-        options.overwrite = target.overwrite;
-        MESHREEL_CHECK(in_file(io::save(mesh, target.mesh_out, options), target.mesh_out));
-    }
-    const io::Format* const format = format_called(target.format_name());
-    Status saved = in_file(format->save_frames(frames, target.path, save_options(target, console)), target.path);
-    std::error_code ignored;
-    if (with_mesh && !saved.ok()) fs::remove(target.mesh_out, ignored); // nothing is left behind
-    return saved;
+        return mesh;
+    };
+    return save_beside_mesh(target, mesh_of, [&] {
+        const io::Format* const format = format_called(target.format_name());
+        return in_file(format->save_frames(frames, target.path, save_options(target, console)), target.path);
+    });
 }
 
 Result<Reached> save_encoded(FrameSource& frames, const EncodeOptions& options, const Target& target)

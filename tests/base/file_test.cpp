@@ -80,6 +80,35 @@ TEST_F(FileTest, ADeviceIsWrittenStraightAndNeverReplaced)
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
+TEST_F(FileTest, WhatHadANameIsBroughtBack)
+{
+    ASSERT_TRUE(write_file(path("a"), Bytes{1}, false).ok());
+    {
+        auto old = Former::keep(path("a")), nothing = Former::keep(path("b"));
+        ASSERT_TRUE(old.ok() && nothing.ok());
+        ASSERT_TRUE(write_file(path("a"), Bytes{2}, true).ok() && write_file(path("b"), Bytes{2}, false).ok());
+        Former moved = std::move(*old);
+        moved.bring_back();
+        nothing->bring_back();
+    }
+    EXPECT_EQ(*read_file(path("a")), Bytes{1});
+    EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FileTest, WhatHadANameIsLetGo)
+{
+    ASSERT_TRUE(write_file(path("a"), Bytes{1}, false).ok());
+    {
+        const auto old = Former::keep(path("a"));
+        ASSERT_TRUE(old.ok() && write_file(path("a"), Bytes{2}, true).ok());
+    }
+    EXPECT_EQ(*read_file(path("a")), Bytes{2});
+    EXPECT_EQ(files(), 1u);
+    Former::keep("/dev/null")->bring_back();
+    Former::keep("-")->bring_back();
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
 TEST_F(FileTest, AFolderIsNeitherReadNorWritten)
 {
     EXPECT_EQ(read_file(folder_.string()).error().code, ErrorCode::io);

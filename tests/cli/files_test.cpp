@@ -71,6 +71,19 @@ TEST_F(Files, AFullDeviceOnStandardOutputIsAnError)
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
+TEST_F(Files, OldMeshIsThereAgainWhereTheRestFails)
+{
+    good("generate wave a.pc2 --mesh-out a.obj --vertices 50");
+    write("old.obj", "what was there");
+    for (const std::string command :
+         {"generate wave /dev/full --format pc2", "convert a.pc2 --mesh a.obj /dev/full --to pc2"}) {
+        EXPECT_EQ(run(command + " -y --mesh-out old.obj").exit_code, 2) << command;
+        EXPECT_EQ(read("old.obj"), "what was there");
+        EXPECT_EQ(run(command + " --mesh-out new.obj").exit_code, 2);
+    }
+    EXPECT_THAT(files(), ElementsAre("a.obj", "a.pc2", "old.obj"));
+}
+
 TEST_F(Files, AFullDeviceOnStandardErrorDoesNoHarm)
 {
     EXPECT_EQ(run("generate wave a.mdd --vertices 50", {.error_file = "/dev/full"}).exit_code, 0);

@@ -121,6 +121,39 @@ Result<Bytes> FileSource::fetch(std::uint64_t offset, std::size_t count)
     return bytes_at(descriptor_, offset, count, path_);
 }
 
+Result<Former> Former::keep(const std::string& path)
+{
+    Former former;
+    struct stat status {};
+    const bool there = path != "-" && ::stat(path.c_str(), &status) == 0;
+    if (path == "-" || (there && !S_ISREG(status.st_mode))) return former;
+    former.path_ = path;
+    if (!there) return former;
+    former.second_ = temporary_name(path);
+    if (::link(path.c_str(), former.second_.c_str()) == 0) return former;
+    former.second_.clear();
+    if (errno == EPERM || errno == ENOENT) return former; // EPERM: a file system without links, which keeps nothing
+    return system_error(path, "cannot keep what was there");
+}
+
+Former::Former(Former&& other) noexcept
+    : path_(std::exchange(other.path_, {})), second_(std::exchange(other.second_, {}))
+{
+}
+
+Former::~Former()
+{
+    if (!second_.empty()) ::unlink(second_.c_str());
+}
+
+void Former::bring_back()
+{
+    if (path_.empty()) return;
+    if (second_.empty() || ::rename(second_.c_str(), path_.c_str()) != 0) ::unlink(path_.c_str());
+    second_.clear();
+    path_.clear();
+}
+
 AtomicFile::AtomicFile(std::string path, std::string temporary, int descriptor)
     : path_(std::move(path)), temporary_(std::move(temporary)), descriptor_(descriptor)
 {
@@ -128,14 +161,12 @@ AtomicFile::AtomicFile(std::string path, std::string temporary, int descriptor)
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, {})),
-      former_(std::exchange(other.former_, {})), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_),
-      appeared_(other.appeared_)
+      descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_), former_(std::move(other.former_))
 {
 }
 
 AtomicFile::~AtomicFile()
 {
-    if (!former_.empty()) ::unlink(former_.c_str());
     if (descriptor_ > 2) ::close(descriptor_);
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
@@ -195,22 +226,16 @@ Status AtomicFile::commit()
 Status AtomicFile::commit_revertibly()
 {
     if (temporary_.empty()) return Ok{};
-    former_ = temporary_name(path_);
-    if (::link(path_.c_str(), former_.c_str()) != 0) {
-        former_.clear();
-        if (errno != ENOENT && errno != EPERM) // EPERM: a file system without links, which keeps nothing
-            return system_error(path_, "cannot keep what was there");
-    }
+    MESHREEL_TRY(Former former, Former::keep(path_));
     MESHREEL_CHECK(commit());
-    appeared_ = true;
+    former_.emplace(std::move(former));
     return Ok{};
 }
 
 void AtomicFile::revert()
 {
-    if (!std::exchange(appeared_, false)) return;
-    if (former_.empty() || ::rename(former_.c_str(), path_.c_str()) != 0) ::unlink(path_.c_str());
-    former_.clear();
+    if (former_) former_->bring_back();
+    former_.reset();
 }
 
 Status write_file(const std::string& path, ByteView bytes, bool overwrite)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "meshreel/base/byte_source.h"
@@ -39,6 +40,27 @@ private:
 /// Whether a path names a regular file: one that FileSource opens.
 bool is_regular_file(const std::string& path);
 
+/// What has a name now, or that nothing has it, remembered for as long as this lives. A file stays under a second name, where
+/// the file system can do that; devices and pipes are left alone.
+class Former {
+public:
+    /// @fails io: it cannot be kept.
+    static Result<Former> keep(const std::string& path);
+
+    Former(Former&& other) noexcept;
+    Former& operator=(Former&&) = delete;
+    ~Former();
+
+    /// The name means again what it meant; a file that has it by now is gone.
+    void bring_back();
+
+private:
+    Former() = default;
+
+    std::string path_;   ///< empty: there is nothing to bring back
+    std::string second_; ///< name of what had the first; empty: nothing had it, or it is not kept
+};
+
 /// A file that appears under its name only when complete. Until commit() the bytes stand in a temporary file beside it,
 /// which the destructor removes. "-" is standard output; a device or a pipe is written straight.
 class AtomicFile : public Spool {
@@ -73,10 +95,9 @@ private:
 
     std::string path_;
     std::string temporary_; ///< empty once committed, and for standard output
-    std::string former_;    ///< what had the name before, under another one; empty: nothing, or it is not kept
     int descriptor_;
     std::uint64_t size_ = 0;
-    bool appeared_ = false; ///< under its name, by commit_revertibly()
+    std::optional<Former> former_; ///< since commit_revertibly()
 };
 
 /// Writes a whole file at once, by AtomicFile.
