@@ -8,7 +8,11 @@ namespace meshreel {
 
 namespace {
 
-constexpr std::size_t few = 64; // of which all ranks are counted
+#ifdef MESHREEL_DECODER_ALONE
+constexpr std::size_t few = 0; // counting ranks pays in wide registers, which it has not
+#else
+constexpr std::size_t few = 64; ///< of which all ranks are counted
+#endif
 
 /// Of each how many are smaller; squares and ranks are read and written up to a multiple of 4.
 MESHREEL_WIDE void ranks_of(const double* __restrict squares, std::size_t count, double* __restrict ranks)
