@@ -15,6 +15,7 @@
 #include "meshreel/codecs/contexts.h"
 #include "meshreel/codecs/interpolation.h"
 #include "meshreel/codecs/length_guess.h"
+#include "meshreel/codecs/nearby_levels.h"
 #include "meshreel/coding/mixed_levels.h"
 #include "meshreel/coding/quantiser.h"
 
@@ -108,7 +109,8 @@ private:
             if (i + 1 < weights.size()) fetch(weights[i + 1], first, level);
             weights[i].apply(level.C, first, guess_);
             if (lengths_) add(corrections.row(i), guess_);
-            look_around(weights[i], first, level.L);
+            mean_of_nearby(std::span(weights[i].vertices).first(weights[i].count),
+                           MatrixView<const std::uint8_t>(level.L), first, std::span(nearby_));
             for (std::size_t k = first; k < last; ++k)
                 code_value(weights[i], {v, k, guess_[k - first], nearby_[k - first]}, level);
         }
@@ -121,19 +123,6 @@ private:
             prefetch(level.C.row(near.vertices[i]).subspan(first, guess_.size()));
             prefetch(level.L.row(near.vertices[i]).subspan(first, guess_.size()));
         }
-    }
-
-    /// Fills `nearby_` for components from `first` on; 4 where nothing is known.
-    void look_around(const Interpolation::Weights& near, std::size_t first, MatrixView<const std::uint8_t> L)
-    {
-        std::fill(nearby_.begin(), nearby_.end(), near.count > 0 ? 0.0 : 4.0);
-        for (std::size_t i = 0; i < near.count; ++i) {
-            const std::uint8_t* __restrict sizes = L.row(near.vertices[i]).data() + first;
-            const double share = shares[i];
-            for (std::size_t k = 0; k < nearby_.size(); ++k) nearby_[k] += share * sizes[k];
-        }
-        if (near.count > 0)
-            for (double& nearby : nearby_) nearby = nearby / share_sums[near.count];
     }
 
     static void add(std::span<const double> correction, std::span<double> guess)
@@ -176,18 +165,6 @@ private:
             context = context * 3 + (i < near.count ? third(L(near.vertices[i], place.k)) : 0);
         return context;
     }
-
-    /// The nearer a neighbour, the more its levels say: 1 / (1 + i), and their sums.
-    static constexpr std::array<double, Interpolation::most> shares = [] {
-        std::array<double, Interpolation::most> table{};
-        for (std::size_t i = 0; i < table.size(); ++i) table[i] = 1.0 / static_cast<double>(1 + i);
-        return table;
-    }();
-    static constexpr std::array<double, Interpolation::most + 1> share_sums = [] {
-        std::array<double, Interpolation::most + 1> table{};
-        for (std::size_t i = 0; i < Interpolation::most; ++i) table[i + 1] = table[i] + shares[i];
-        return table;
-    }();
 
     Core& core_;
     const Interpolation& interpolation_;

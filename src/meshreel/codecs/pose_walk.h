@@ -10,6 +10,7 @@
 
 #include "meshreel/base/views.h"
 #include "meshreel/codecs/contexts.h"
+#include "meshreel/codecs/nearby_levels.h"
 #include "meshreel/codecs/pose_order.h"
 #include "meshreel/coding/mixed_levels.h"
 #include "meshreel/coding/quantiser.h"
@@ -88,23 +89,19 @@ private:
                        batch.Y);
     }
 
-    /// Fills `guess_` and `nearby_`: how large the levels of the neighbours are, 4 where there are none.
+    /// Fills `guess_` and `nearby_`.
     void look_around(const PoseOrder::Neighbours& near, const Batch& batch)
     {
         const std::size_t size = batch.last - batch.first;
         guess_.assign(size, 0.0);
-        nearby_.assign(size, near.count > 0 ? 0.0 : 4.0);
-        double shares = 0;
+        nearby_.resize(size);
         for (std::size_t i = 0; i < near.count; ++i) {
             const double* __restrict values = batch.Y.row(near.frames[i]).data() + batch.first;
-            const std::uint8_t* __restrict sizes = levels_seen_.row(near.frames[i]).data() + batch.first;
-            const double weight = near.weights[i], share = 1.0 / static_cast<double>(1 + i);
+            const double weight = near.weights[i];
             for (std::size_t c = 0; c < size; ++c) guess_[c] += weight * values[c];
-            for (std::size_t c = 0; c < size; ++c) nearby_[c] += share * sizes[c];
-            shares += share;
         }
-        if (near.count > 0)
-            for (double& nearby : nearby_) nearby /= shares;
+        mean_of_nearby(std::span(near.frames).first(near.count), MatrixView<const std::uint8_t>(levels_seen_.view()),
+                       batch.first, std::span(nearby_));
     }
 
     struct Place {
