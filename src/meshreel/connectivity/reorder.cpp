@@ -87,7 +87,6 @@ public:
     std::uint32_t at_number(std::uint32_t number) const
     {
         if (number >= vertex_.size() || vertex_[number] == none) return none;
-        if (left_[vertex_[number]] == 0) return none;
         const std::uint32_t corner = corner_[vertex_[number]];
         const std::uint32_t found = around(corner, false);
         return found != none ? found : around(corner, true);

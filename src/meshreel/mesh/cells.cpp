@@ -24,7 +24,7 @@ MESHREEL_WIDE void ranks_of(const double* __restrict squares, std::size_t count,
             for (std::size_t l = 0; l < 4; ++l) ranks[i + l] += squares[j] < squares[i + l] ? 1.0 : 0.0;
 }
 
-/// Without a branch that depends on a distance. @return whether no two were equally near.
+/// Without a branch that depends on a distance. @return whether no two were equally near; else nothing is done.
 bool ranked(const Cells::Found& found, std::span<std::uint32_t> nearest)
 {
     std::array<double, few> ranks;
@@ -36,8 +36,9 @@ bool ranked(const Cells::Found& found, std::span<std::uint32_t> nearest)
         places[rank] = found.points[i];
         sum += rank;
     }
+    if (2 * sum != found.count * (found.count - 1)) return false; // some places nobody has
     std::copy_n(places.data(), nearest.size(), nearest.data());
-    return 2 * sum == found.count * (found.count - 1);
+    return true;
 }
 
 } // namespace
@@ -127,9 +128,11 @@ void Cells::look(const Search& search, std::size_t begin, std::size_t end, Found
 
 MESHREEL_WIDE Cells::Squares Cells::squares_from(std::size_t begin, const Point& place) const
 {
-    const double* __restrict x = at_[0].data() + begin, * __restrict y = at_[1].data() + begin, * __restrict z = at_[2].data() + begin;
+    const double* __restrict x = at_[0].data() + begin;
+    const double* __restrict y = at_[1].data() + begin;
+    const double* __restrict z = at_[2].data() + begin;
     Squares squares;
-    for (std::size_t i = 0; i < block; ++i) {
+    for (std::size_t i = 0; i < block; ++i) { // squared_gap, in wide registers
         const double dx = place[0] - x[i], dy = place[1] - y[i], dz = place[2] - z[i];
         squares[i] = dx * dx + dy * dy + dz * dz;
     }
