@@ -104,12 +104,16 @@ class Race:
 
     def turn_key(self, entrant, turn):
         """Times are of a turn; errors and sizes of the first."""
-        measures = [self.command.measuring, *self.plan.measures] if turn == 0 else []
-        return key_of(entrant.key, turn, measures)
+        return key_of(entrant.key, turn, self.command.measuring if turn == 0 else "")
+
+    def remembered(self, entrant, turn):
+        key = self.turn_key(entrant, turn)
+        return self.journal[key] if key in self.journal else {}
 
     def known(self, entrant, turn):
-        key = self.turn_key(entrant, turn)
-        return self.journal[key] if key in self.journal else None
+        """What is remembered, where it has all that this plan measures: another plan's turn is as good."""
+        record = self.remembered(entrant, turn)
+        return record if record and (turn > 0 or record["measures"].keys() >= set(self.plan.measures)) else None
 
     def measure(self, entrant, turn):
         start = time.monotonic()
@@ -134,7 +138,9 @@ class Race:
             record = {"sequence": clip.name, "coding": entrant.coding.name, "point": point, "turn": turn, "bytes": files.size,
                       "encode_s": files.seconds, "decode_s": seconds, **files.told}
             if turn == 0:
-                record["measures"] = self.command.compare(clip, back, self.plan.measures, point.get("order", "keep"))
+                others = self.remembered(entrant, turn).get("measures", {})  # another plan's, which looks for them in the same line
+                measures = list(dict.fromkeys([*self.plan.measures, *others]))
+                record["measures"] = self.command.compare(clip, back, measures, point.get("order", "keep"))
             return record
 
     def row(self, entrant):
@@ -145,13 +151,14 @@ class Race:
         self.outcome.loads += [record["load"] for record in records if "load" in record]
         if len({record["bytes"] for record in records}) > 1:
             self.outcome.skipped.append(f"{clip.name}: {entrant.coding.name}, {label(entrant.point)}: its size is not the same in every turn")
-        self.outcome.about |= {name: {key: found[key] for key in ("title", "unit", "better")} for name, found in first["measures"].items()}
+        measured = {name: first["measures"][name] for name in self.plan.measures}
+        self.outcome.about |= {name: {key: found[key] for key in ("title", "unit", "better")} for name, found in measured.items()}
         self.outcome.programs += {record["program"] for record in records if "program" in record}
         samples = clip.V * clip.F
         encode_s, decode_s = (statistics.median(record[key] for record in records) for key in ("encode_s", "decode_s"))
         return {"sequence": clip.name, "coding": entrant.coding.name, "setting": label(entrant.point), "V": clip.V, "F": clip.F,
                 "bytes": first["bytes"], "bpfv": 8 * first["bytes"] / samples,  # (9.1)
-                **{name: found["value"] for name, found in first["measures"].items()},
+                **{name: found["value"] for name, found in measured.items()},
                 "encode_s": encode_s, "decode_s": decode_s, "encode_mvs": 1e-6 * samples / max(encode_s, 1e-9),
                 "decode_mvs": 1e-6 * samples / max(decode_s, 1e-9), "runs": len(records), "bases": first.get("bases", ""),
                 "step": first.get("step", "")}

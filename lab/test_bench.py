@@ -178,11 +178,11 @@ class Scribe:
 
 
 class Races(unittest.TestCase):
-    def run_race(self, folder, book, bits=(8, 9), decodes=1):
+    def run_race(self, folder, book, bits=(8, 9), decodes=1, measures=("kg",)):
         both = tuple(plan.Coding(name, tuple({"bits": n, "of": name} for n in bits)) for name in "ab")
-        curves = plan.Curves("p", "p", "a", 3, ("kg",), {"s": {}, "t": {}}, both, decodes)
-        about = {"kg": {"value": 0.5, "title": "KG error", "unit": "%", "better": "less"}}
-        command = types.SimpleNamespace(measuring="c", compare=lambda *_: about)
+        curves = plan.Curves("p", "p", "a", 3, measures, {"s": {}, "t": {}}, both, decodes)
+        about = {"value": 0.5, "title": "an error", "unit": "%", "better": "less"}
+        command = types.SimpleNamespace(measuring="c", compare=lambda _clip, _back, names, _order: {name: about for name in names})
         clip = types.SimpleNamespace(name="s", V=2, F=4)
         sequences = types.SimpleNamespace(find=lambda name, _: clip if name == "s" else None, checksums={"s": "1"})
         return race.Race(curves, command, sequences, Journal(os.path.join(folder, "j"))).run({name: Scribe(name, book) for name in "ab"})
@@ -206,6 +206,18 @@ class Races(unittest.TestCase):
             first, again = self.run_race(folder, book), self.run_race(folder, book)
             self.assertEqual(len(book), 12)
             self.assertEqual(first.rows, again.rows)
+
+    def test_another_plans_turns_count_where_they_have_all_that_is_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            book = []
+            self.run_race(folder, book)
+            more = self.run_race(folder, book, measures=("sted", "kg"))  # the first turn anew
+            less = self.run_race(folder, book, measures=("sted",))
+            again = self.run_race(folder, book)
+            self.assertEqual(len(book), 12 + 4)
+            self.assertEqual([(row["sted"], row["kg"]) for row in more.rows], 4 * [(0.5, 0.5)])
+            self.assertEqual([["kg" in row, "sted" in row] for row in (less.rows[0], again.rows[0])], [[False, True], [True, False]])
+            self.assertEqual(list(less.about), ["sted"])
 
     def test_a_stopwatch_counts_work_not_waiting(self):
         watch = Stopwatch()
