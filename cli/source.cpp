@@ -78,7 +78,8 @@ void Source::declare_limits(CLI::App& app)
                    "bytes that a byte of a .reel file may become, beyond 64 MiB; default 1000000")
         ->type_name("N");
     app.add_option("--max-work", limits.max_work,
-                   "multiplications that a byte of a .reel file may cause, beyond 256 a coordinate; default 4000000")
+                   "multiplications that a byte of a .reel or glTF file may cause, beyond 256 a coordinate or pose; "
+                   "default 4000000")
         ->type_name("N");
 }
 

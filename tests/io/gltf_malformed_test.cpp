@@ -198,13 +198,27 @@ TEST(GltfMalformed, AMillionFramesOfManyInstancesAreRefusedByTheMemoryLimit)
 {
     GlbMaker made;
     const std::size_t mesh = made.mesh(made.triangle());
-    for (int n = 0; n < 1000; ++n) made.node({{"mesh", mesh}});
+    for (int n = 0; n < 1000; ++n) made.node({{"mesh", mesh}, {"translation", {n, 0, 0}}});
     made.clip("wait", 0, "translation", made.sampler({0, 10, 9000}, std::vector<float>(9), "VEC3"));
     LoadOptions options = small_limits();
     options.fps = 100;
     const auto read = load_bytes(made.bytes(), options);
     ASSERT_FALSE(read.ok());
     EXPECT_NE(why(read).find("memory limit"), std::string::npos) << why(read);
+}
+
+TEST(GltfMalformed, AMillionFramesOfManyNodesAreRefusedByTheWorkLimit)
+{
+    GlbMaker made;
+    made.node({{"mesh", made.mesh(made.triangle())}});
+    for (int n = 0; n < 1000; ++n) made.node(json::object());
+    made.clip("wait", 0, "translation", made.sampler({0, 10, 9000}, std::vector<float>(9), "VEC3"));
+    LoadOptions options;
+    options.fps = 100;
+    options.limits.max_work = 1'000'000;
+    const auto read = load_bytes(made.bytes(), options);
+    ASSERT_FALSE(read.ok());
+    EXPECT_NE(why(read).find("900001 sums of 66102 products are above the limit"), std::string::npos) << why(read);
 }
 
 TEST(GltfMalformed, AccessorsWithoutDataCannotAskForTheWorld)

@@ -174,7 +174,7 @@ TEST(GltfRead, StripsAndFansBecomeTrianglesThatFaceTheSameWay)
     const std::size_t positions = made.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");
     made.node({{"mesh", made.mesh({{"attributes", {{"POSITION", positions}}}, {"mode", 5}})}});
     made.node({{"mesh", made.mesh({{"attributes", {{"POSITION", positions}}}, {"mode", 6}})}});
-    EXPECT_EQ(loaded(made).triangles, std::vector<Triangle>({{0, 1, 2}, {1, 3, 2}, {5, 6, 4}, {6, 7, 4}}));
+    EXPECT_EQ(loaded(made).triangles, std::vector<Triangle>({{0, 1, 2}, {1, 3, 2}, {1, 2, 0}, {2, 3, 0}}));
 }
 
 TEST(GltfRead, PointsAndLinesAreToldAndLeftOut)
@@ -211,6 +211,27 @@ TEST(GltfRead, PrimitivesOfOneVertexBufferShareIt)
     const Animation read = loaded(made);
     EXPECT_EQ(read.vertex_count, 3u);
     EXPECT_EQ(read.triangles, std::vector<Triangle>({{0, 1, 2}, {2, 1, 0}}));
+}
+
+TEST(GltfRead, MeshesOfOneVertexBufferShareItWhereTheirNodesMoveAlike)
+{
+    GlbMaker made;
+    json front = made.triangle(), back = front;
+    front["targets"] = back["targets"] = {{{"POSITION", made.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")}}};
+    back["indices"] = made.shorts({0, 2, 1});
+    const std::size_t meshes[] = {made.mesh(front), made.mesh(back)};
+    for (const std::size_t mesh : {meshes[0], meshes[1], meshes[1]}) made.node({{"mesh", mesh}});
+    made.node({{"mesh", meshes[1]}, {"translation", {5, 0, 0}}});
+    made.clip("rise", 0, "weights", made.sampler({0, 1}, {0, 1}, "SCALAR"));
+    json channel = made.root["animations"][0]["channels"][0];
+    channel["target"]["node"] = 1;
+    made.root["animations"][0]["channels"].push_back(channel);
+    const Animation read = loaded(made); // node 2 rests, node 3 stands elsewhere
+    EXPECT_EQ(read.vertex_count, 9u);
+    EXPECT_EQ(read.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 1}, {3, 5, 4}, {6, 8, 7}}));
+    EXPECT_EQ(point(read, read.frame_count() - 1, 1), (std::array<double, 3>{1, 0, 1}));
+    EXPECT_EQ(point(read, read.frame_count() - 1, 4), (std::array<double, 3>{1, 0, 0}));
+    EXPECT_EQ(point(read, read.frame_count() - 1, 7), (std::array<double, 3>{6, 0, 0}));
 }
 
 TEST(GltfRead, TrianglesOfAMirroredNodeAreTurnedRound)

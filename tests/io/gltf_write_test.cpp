@@ -160,6 +160,20 @@ TEST(GltfWrite, OnePrimitiveAMaterialAndGroupAndVerticesAreShared)
     EXPECT_EQ(back.appearance.materials, made.appearance.materials);
 }
 
+TEST(GltfWrite, GroupsAreNodesAndShareTheirVertices)
+{
+    Animation made = sheet(3, 2);
+    made.appearance.groups = {"left", "right"};
+    made.appearance.attributes = {triangle_numbers("group", std::vector<std::uint32_t>{0, 0, 1, 1, 0, 0, 1, 1})};
+    const Animation back = through(made, "sheet.glb");
+    EXPECT_EQ(back.vertex_count, made.vertex_count);
+    EXPECT_EQ(back.triangles.size(), made.triangles.size());
+    EXPECT_EQ(back.appearance.groups, std::vector<std::string>({"left/left#0", "right/right#0"}));
+    SaveOptions few;
+    few.morphs = Morphs::pca;
+    EXPECT_EQ(through(made, "sheet.glb", few).vertex_count, made.vertex_count);
+}
+
 TEST(GltfWrite, AVertexWithTwoValuesAtItsCornersIsSplit)
 {
     Animation made = sheet(2, 2);

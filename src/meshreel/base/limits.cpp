@@ -44,13 +44,13 @@ Status within_expansion(const DecodeLimits& limits, std::uint64_t decoded_bytes,
                             limits.max_expansion, " each"));
 }
 
-Status within_work(const DecodeLimits& limits, std::uint64_t coordinates, std::uint64_t K, std::uint64_t segment_bytes)
+Status within_work(const DecodeLimits& limits, std::uint64_t sums, std::uint64_t K, std::uint64_t bytes)
 {
-    if (K <= DecodeLimits::free_work || coordinates == 0) return Ok{};
-    const std::uint64_t more = K - DecodeLimits::free_work, most = ~std::uint64_t{0} / coordinates;
-    if (more <= most && at_most(more * coordinates, limits.max_work, segment_bytes)) return Ok{};
-    return bad_input(concat(coordinates, " coordinates of ", K, " terms each are above the limit of ", limits.max_work,
-                            " multiplications a byte"));
+    if (K <= DecodeLimits::free_work || sums == 0) return Ok{};
+    const std::uint64_t more = K - DecodeLimits::free_work, most = ~std::uint64_t{0} / sums;
+    if (more <= most && at_most(more * sums, limits.max_work, bytes)) return Ok{};
+    return bad_input(
+        concat(sums, " sums of ", K, " products are above the limit of ", limits.max_work, " multiplications a byte"));
 }
 
 } // namespace meshreel

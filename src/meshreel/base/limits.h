@@ -17,7 +17,7 @@ struct DecodeLimits {
     std::uint64_t max_frames = 1'000'000;      ///< F
     std::uint64_t max_memory = 16ull << 30;    ///< bytes that one file may make us hold
     std::uint64_t max_expansion = 1'000'000;   ///< bytes of frames a byte of the file, beyond the first 64 MiB
-    std::uint64_t max_work = 4'000'000; ///< multiplications a byte of a segment, beyond the first 256 a coordinate
+    std::uint64_t max_work = 4'000'000; ///< products a byte of a segment or scene, beyond 256 a coordinate or pose
 
     static constexpr std::uint64_t free_bytes = 64ull << 20;
     static constexpr std::uint64_t free_work = 256;
@@ -32,7 +32,7 @@ Status within(const DecodeLimits& limits, std::uint64_t vertices, std::uint64_t 
 /// Refuses frames of so many bytes out of a file of so many.
 Status within_expansion(const DecodeLimits& limits, std::uint64_t decoded_bytes, std::uint64_t file_bytes);
 
-/// Refuses coordinates that are sums of K products each out of a segment of so many bytes.
-Status within_work(const DecodeLimits& limits, std::uint64_t coordinates, std::uint64_t K, std::uint64_t segment_bytes);
+/// Refuses so many sums of K products each out of so many bytes: the coordinates of a segment, the frames of a scene.
+Status within_work(const DecodeLimits& limits, std::uint64_t sums, std::uint64_t K, std::uint64_t bytes);
 
 } // namespace meshreel

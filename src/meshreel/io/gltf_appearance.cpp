@@ -89,22 +89,21 @@ struct Gatherer {
     std::vector<std::uint32_t> materials, groups; ///< one a triangle
     std::map<std::string, std::size_t> nodes;     ///< how often each node name came up
 
-    /// The triangles of the node whose vertex sets begin at body.parts[p], in the order of its mesh's primitives.
-    Status add(std::size_t p, bool mirrored);
+    /// The triangles of a node, in the order of its mesh's primitives.
+    Status add(const GltfShown& shown, bool mirrored);
 };
 
-Status Gatherer::add(std::size_t p, bool mirrored)
+Status Gatherer::add(const GltfShown& shown, bool mirrored)
 {
-    const GltfPart* const parts = &source.body.parts[p];
-    const GltfNode& node = source.scene.nodes[parts->node];
-    const GltfMesh& mesh = source.body.meshes[parts->mesh];
+    const GltfNode& node = source.scene.nodes[shown.node];
+    const GltfMesh& mesh = source.body.meshes[shown.mesh];
     const std::size_t instance = ++nodes[node.name];
     for (const GltfTriangles& primitive : mesh.primitives) {
         const std::uint64_t total = animation.triangles.size() + primitive.triangles.size();
         MESHREEL_CHECK(within(total, source.document.limits.max_triangles, "triangle_count"));
         MESHREEL_CHECK(
             source.document.budget->take(primitive.triangles.size() * 28, source.document.json().member("nodes")));
-        const std::uint32_t first = parts[primitive.vertices].first;
+        const std::uint32_t first = source.body.parts[shown.parts[primitive.vertices]].first;
         for (const Triangle& t : primitive.triangles)
             animation.triangles.push_back({first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]});
         materials.resize(total, primitive.material);
@@ -118,13 +117,13 @@ Status read_all_triangles(const GltfSource& source, Animation& animation)
 {
     const GltfPose rest = pose_at(source.scene, nullptr, 0);
     Gatherer gatherer{source, animation, {}, {}, {}};
-    for (std::size_t p = 0; p < source.body.parts.size(); ++p) {
-        const GltfPart& part = source.body.parts[p];
-        if (part.set != 0) continue;
-        const bool mirrored = !part.skinned && rest.world[part.node].determinant() < 0;
+    for (const GltfShown& shown : source.body.shown) {
+        if (shown.parts.empty()) continue;
+        const bool skinned = source.body.parts[shown.parts[0]].skinned;
+        const bool mirrored = !skinned && rest.world[shown.node].determinant() < 0;
         if (mirrored && source.warn)
-            source.warn(concat("nodes[", part.node, "]: is mirrored; its triangles are turned round"));
-        MESHREEL_CHECK(gatherer.add(p, mirrored));
+            source.warn(concat("nodes[", shown.node, "]: is mirrored; its triangles are turned round"));
+        MESHREEL_CHECK(gatherer.add(shown, mirrored));
     }
     const bool any = std::any_of(gatherer.materials.begin(), gatherer.materials.end(),
                                  [](std::uint32_t m) { return m != gltf_none; });
@@ -139,7 +138,7 @@ Status read_gltf_appearance(const GltfSource& source, Animation& animation)
 {
     GltfColumns columns;
     for (const GltfPart& part : source.body.parts)
-        MESHREEL_CHECK(gather(source, source.body.meshes[part.mesh].vertices[part.set], part.first, columns));
+        MESHREEL_CHECK(gather(source, source.body.sets[part.set], part.first, columns));
     for (GltfColumn& column : columns) MESHREEL_CHECK(finish(source.document, std::move(column), animation));
     MESHREEL_CHECK(read_all_triangles(source, animation));
     const Json materials = source.document.json().member("materials");

@@ -3,6 +3,7 @@
 #include "meshreel/io/gltf_bake.h"
 
 #include <algorithm>
+#include <map>
 
 #include "meshreel/base/text.h"
 
@@ -21,19 +22,67 @@ Status check_joints(const GltfVertices& vertices, const GltfSkin& skin)
     return Ok{};
 }
 
-Status add_node(const GltfDocument& document, const GltfScene& scene, std::uint32_t number, GltfBody& body)
+/// All that says where a node puts a vertex, at any time: where two nodes' are equal, so are their poses.
+std::vector<std::vector<double>> poses_of(const GltfScene& scene, const GltfClip* clip)
 {
-    const GltfNode& node = scene.nodes[number];
-    const GltfMesh& mesh = body.meshes[node.mesh];
-    for (std::uint32_t s = 0; s < mesh.vertices.size(); ++s) {
-        const GltfVertices& vertices = mesh.vertices[s];
-        GltfPart part{number, node.mesh, s, body.vertex_count, node.skin != gltf_none && vertices.influences > 0};
-        if (part.skinned) MESHREEL_CHECK(check_joints(vertices, scene.skins[node.skin]));
-        const std::uint64_t total = std::uint64_t{body.vertex_count} + vertices.count;
-        MESHREEL_CHECK(within(total, std::min<std::uint64_t>(document.limits.max_vertices, gltf_none - 1), "nodes"));
-        body.vertex_count = static_cast<std::uint32_t>(total);
-        body.parts.push_back(part);
+    std::vector<std::vector<double>> poses;
+    for (const GltfNode& node : scene.nodes) {
+        std::vector<double>& pose = poses.emplace_back();
+        const auto add = [&](const auto& numbers) { pose.insert(pose.end(), numbers.begin(), numbers.end()); };
+        add(std::array<double, 3>{static_cast<double>(node.parent), static_cast<double>(node.skin),
+                                  node.has_matrix ? 1.0 : 0.0});
+        add(node.matrix.m);
+        add(node.trs.translation);
+        add(node.trs.rotation);
+        add(node.trs.scale);
+        pose.push_back(static_cast<double>(node.weights.size()));
+        add(node.weights);
     }
+    if (clip == nullptr) return poses;
+    for (const GltfChannel& channel : clip->channels) {
+        poses[channel.node].push_back(static_cast<double>(channel.path));
+        poses[channel.node].push_back(static_cast<double>(channel.sampler));
+    }
+    return poses;
+}
+
+/// Adds nodes to a body.
+struct BodyBuilder {
+    const GltfDocument& document;
+    const GltfScene& scene;
+    std::vector<std::vector<double>> poses; ///< a node
+    GltfBody body;
+    std::map<std::pair<std::uint32_t, std::vector<double>>, std::uint32_t> parts; ///< by set and pose
+
+    Result<std::uint32_t> part_of(std::uint32_t number, std::uint32_t set);
+    Status add(std::uint32_t number);
+};
+
+/// The part of a node that holds a set: one that there is, or a new one.
+Result<std::uint32_t> BodyBuilder::part_of(std::uint32_t number, std::uint32_t set)
+{
+    const auto [place, fresh] = parts.try_emplace({set, poses[number]}, static_cast<std::uint32_t>(body.parts.size()));
+    if (!fresh) return place->second;
+    MESHREEL_CHECK(document.budget->take(poses[number].size() * sizeof(double), document.item("nodes", number)));
+    const std::uint32_t skin = scene.nodes[number].skin;
+    const GltfVertices& vertices = body.sets[set];
+    const GltfPart part{number, set, body.vertex_count, skin != gltf_none && vertices.influences > 0};
+    if (part.skinned) MESHREEL_CHECK(check_joints(vertices, scene.skins[skin]));
+    const std::uint64_t total = std::uint64_t{body.vertex_count} + vertices.count;
+    MESHREEL_CHECK(within(total, std::min<std::uint64_t>(document.limits.max_vertices, gltf_none - 1), "nodes"));
+    body.vertex_count = static_cast<std::uint32_t>(total);
+    body.parts.push_back(part);
+    return place->second;
+}
+
+Status BodyBuilder::add(std::uint32_t number)
+{
+    GltfShown shown{number, scene.nodes[number].mesh, {}};
+    for (const std::uint32_t set : body.meshes[shown.mesh].sets) {
+        MESHREEL_TRY(const std::uint32_t part, part_of(number, set));
+        shown.parts.push_back(part);
+    }
+    body.shown.push_back(std::move(shown));
     return Ok{};
 }
 
@@ -91,23 +140,25 @@ bool blend(const GltfVertices& vertices, std::size_t v, const std::vector<Affine
     return moved;
 }
 
-Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene,
+Result<GltfBody> read_gltf_body(const GltfDocument& document, const GltfScene& scene, const GltfClip* clip,
                                 const std::function<void(std::string)>& warn)
 {
-    GltfBody body;
+    BodyBuilder builder{document, scene, poses_of(scene, clip), {}, {}};
+    GltfBody& body = builder.body;
+    const auto is_shown = [&](const GltfNode& node) { return node.visible && node.mesh != gltf_none; };
     body.meshes.resize(document.count("meshes"));
     std::vector<bool> read(body.meshes.size());
-    for (std::uint32_t n = 0; n < scene.nodes.size(); ++n) {
-        const GltfNode& node = scene.nodes[n];
-        if (!node.visible || node.mesh == gltf_none) continue;
-        if (!read[node.mesh]) {
-            MESHREEL_TRY(body.meshes[node.mesh], read_gltf_mesh(document, node.mesh, warn));
-            read[node.mesh] = true;
-        }
-        MESHREEL_CHECK(add_node(document, scene, n, body));
+    GltfVertexSets vertices;
+    for (const GltfNode& node : scene.nodes) {
+        if (!is_shown(node) || read[node.mesh]) continue;
+        MESHREEL_TRY(body.meshes[node.mesh], read_gltf_mesh(document, node.mesh, vertices, warn));
+        read[node.mesh] = true;
     }
+    body.sets = std::move(vertices.sets);
+    for (std::uint32_t n = 0; n < scene.nodes.size(); ++n)
+        if (is_shown(scene.nodes[n])) MESHREEL_CHECK(builder.add(n));
     if (body.vertex_count == 0) return bad_input("the scene shows no triangle mesh", "nodes");
-    return body;
+    return std::move(body);
 }
 
 GltfPose pose_at(const GltfScene& scene, const GltfClip* clip, double time_s)
@@ -133,10 +184,22 @@ GltfPose pose_at(const GltfScene& scene, const GltfClip* clip, double time_s)
     return pose;
 }
 
+std::uint64_t work_of(const GltfScene& scene, const GltfBody& body)
+{
+    constexpr std::uint64_t matrix = 12, product = 36, local = 30;
+    std::uint64_t work = scene.nodes.size() * (local + product);
+    for (const GltfSkin& skin : scene.skins) work += skin.joints.size() * product;
+    for (const GltfPart& part : body.parts) {
+        const GltfVertices& vertices = body.sets[part.set];
+        work += vertices.count * (matrix * (1 + vertices.influences) + 3 * vertices.targets.size());
+    }
+    return work;
+}
+
 void bake(const GltfScene& scene, const GltfBody& body, const GltfPose& pose, std::span<float> out)
 {
     for (const GltfPart& part : body.parts) {
-        const GltfVertices& vertices = body.meshes[part.mesh].vertices[part.set];
+        const GltfVertices& vertices = body.sets[part.set];
         const std::vector<double> rest = morphed(vertices, pose.weights[part.node]);
         const std::uint32_t skin = scene.nodes[part.node].skin;
         Affine matrix = pose.world[part.node];

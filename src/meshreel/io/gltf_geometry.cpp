@@ -134,25 +134,38 @@ Result<GltfVertices> read_vertices(const GltfDocument& document, const Json& pri
     return vertices;
 }
 
-/// The vertex set of a primitive: the one of an earlier primitive with the same accessors, or a new one.
-Result<std::size_t> vertex_set(const GltfDocument& document, const Json& primitive, GltfMesh& mesh)
+/// The number of a primitive's vertex set: that of an earlier primitive with the same accessors, or a new one.
+Result<std::uint32_t> vertex_set(const GltfDocument& document, const Json& primitive, GltfVertexSets& vertices)
 {
-    const nlohmann::json nothing;
-    const auto part = [&](const Json& of, const char* name) {
-        return of.member(name) ? *of.member(name).value : nothing;
-    };
-    for (std::size_t s = 0; s < mesh.vertices.size(); ++s)
-        if (part(mesh.vertices[s].primitive, "attributes") == part(primitive, "attributes") &&
-            part(mesh.vertices[s].primitive, "targets") == part(primitive, "targets"))
-            return s;
-    MESHREEL_TRY(GltfVertices vertices, read_vertices(document, primitive));
-    mesh.vertices.push_back(std::move(vertices));
-    return mesh.vertices.size() - 1;
+    std::string key;
+    for (const char* part : {"attributes", "targets"}) {
+        const Json field = primitive.member(part);
+        if (field) key += field.value->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        key += '\n';
+    }
+    const auto [place, fresh] = vertices.numbers.try_emplace(key, static_cast<std::uint32_t>(vertices.sets.size()));
+    if (fresh) {
+        MESHREEL_CHECK(document.budget->take(key.size() + sizeof(GltfVertices), primitive));
+        MESHREEL_TRY(GltfVertices set, read_vertices(document, primitive));
+        vertices.sets.push_back(std::move(set));
+    }
+    return place->second;
+}
+
+/// Its place among those of a mesh.
+std::size_t place_in(std::vector<std::uint32_t>& sets, std::uint32_t set)
+{
+    const auto found = std::find(sets.begin(), sets.end(), set);
+    if (found == sets.end()) {
+        sets.push_back(set);
+        return sets.size() - 1;
+    }
+    return static_cast<std::size_t>(found - sets.begin());
 }
 
 } // namespace
 
-Result<GltfMesh> read_gltf_mesh(const GltfDocument& document, std::size_t number,
+Result<GltfMesh> read_gltf_mesh(const GltfDocument& document, std::size_t number, GltfVertexSets& vertices,
                                 const std::function<void(std::string)>& warn)
 {
     const Json json = document.item("meshes", number), primitives = json.member("primitives");
@@ -168,13 +181,14 @@ Result<GltfMesh> read_gltf_mesh(const GltfDocument& document, std::size_t number
         }
         GltfTriangles part;
         part.primitive = p;
-        MESHREEL_TRY(part.vertices, vertex_set(document, primitive, mesh));
+        MESHREEL_TRY(const std::uint32_t set, vertex_set(document, primitive, vertices));
+        part.vertices = place_in(mesh.sets, set);
         if (primitive.member("material")) {
             MESHREEL_TRY(const std::uint64_t material,
                          primitive.member("material").integer(document.count("materials")));
             part.material = static_cast<std::uint32_t>(material);
         }
-        MESHREEL_TRY(part.triangles, read_triangles(document, primitive, mesh.vertices[part.vertices].count));
+        MESHREEL_TRY(part.triangles, read_triangles(document, primitive, vertices.sets[set].count));
         mesh.primitives.push_back(std::move(part));
     }
     return mesh;

@@ -45,7 +45,7 @@ template <class Visit>
 void for_each_pose(const GltfScene& scene, const GltfBody& body, const GltfPose& pose, const Visit& visit)
 {
     for (const GltfPart& part : body.parts) {
-        const GltfVertices& vertices = body.meshes[part.mesh].vertices[part.set];
+        const GltfVertices& vertices = body.sets[part.set];
         Affine matrix = pose.world[part.node];
         for (std::size_t v = 0; v < vertices.count; ++v) {
             if (part.skinned && !blend(vertices, v, pose.joints[scene.nodes[part.node].skin], matrix))

@@ -52,12 +52,18 @@ void tell_left_out(const GltfDocument& document, const GltfBody& body, const Loa
     if (document.json().member("cameras")) options.warn("has cameras, which are left out");
     if (document.json().member("extensions").member("KHR_lights_punctual"))
         options.warn("has lights, which are left out");
-    for (const GltfMesh& mesh : body.meshes)
-        for (const GltfVertices& vertices : mesh.vertices) {
-            const Json target = vertices.primitive.member("targets").element(0);
-            if (!target.member("NORMAL") && !target.member("TANGENT")) continue;
-            return options.warn("has morph targets for normals or tangents, which are left out");
-        }
+    for (const GltfVertices& vertices : body.sets) {
+        const Json target = vertices.primitive.member("targets").element(0);
+        if (!target.member("NORMAL") && !target.member("TANGENT")) continue;
+        return options.warn("has morph targets for normals or tangents, which are left out");
+    }
+}
+
+std::uint64_t bytes_of(const GltfDocument& document)
+{
+    std::uint64_t bytes = document.file.size();
+    for (const Bytes& buffer : document.loaded) bytes += buffer.size();
+    return bytes;
 }
 
 Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
@@ -70,7 +76,7 @@ Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
         MESHREEL_TRY(clip, read_gltf_clip(document, scene, *number, options.warn));
     }
     MESHREEL_TRY(const ClipTimes times, clip_times(clip, options.fps, document.limits, options.warn));
-    MESHREEL_TRY(const GltfBody body, read_gltf_body(document, scene, options.warn));
+    MESHREEL_TRY(const GltfBody body, read_gltf_body(document, scene, number ? &clip : nullptr, options.warn));
     tell_left_out(document, body, options);
 
     Animation animation;
@@ -84,6 +90,7 @@ Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
     MESHREEL_CHECK(read_gltf_appearance({document, scene, body, options.warn}, animation));
     MESHREEL_CHECK(
         within(document.limits, animation.vertex_count, animation.triangles.size(), animation.frame_count()));
+    MESHREEL_CHECK(within_work(document.limits, animation.frame_count(), work_of(scene, body), bytes_of(document)));
     MESHREEL_CHECK(document.budget->take(animation.frame_count() * animation.vertex_count * 12,
                                          document.json().member("animations")));
     animation.positions.resize(animation.frame_count() * animation.vertex_count * 3);

@@ -57,7 +57,8 @@ Result<GltfNode> read_node(const GltfDocument& document, std::size_t number)
     if (node.weights.empty() && node.mesh != gltf_none) {
         MESHREEL_TRY(node.weights, number_list(document.item("meshes", node.mesh).member("weights")));
     }
-    MESHREEL_CHECK(document.budget->take(2 * (sizeof node + node.weights.size() * sizeof(double)), json)); // and a pose
+    const std::size_t bytes = sizeof node + node.weights.size() * sizeof(double);
+    MESHREEL_CHECK(document.budget->take(3 * bytes, json)); // with its pose, and what decides that
     return node;
 }
 
