@@ -28,11 +28,9 @@ class Journal:
             except (json.JSONDecodeError, KeyError):
                 continue  # measured again
 
-    def __contains__(self, key):
-        return key in self.records
-
-    def __getitem__(self, key):
-        return self.records[key]
+    def get(self, key):
+        """The newest record of this key; an empty one where there is none."""
+        return self.records.get(key, {})
 
     def add(self, key, record):
         with open(self.path, "a", encoding="utf-8") as file:

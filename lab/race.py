@@ -103,16 +103,12 @@ class Race:
         return self.outcome
 
     def turn_key(self, entrant, turn):
-        """Times are of a turn; errors and sizes of the first."""
-        return key_of(entrant.key, turn, self.command.measuring if turn == 0 else "")
-
-    def remembered(self, entrant, turn):
-        key = self.turn_key(entrant, turn)
-        return self.journal[key] if key in self.journal else {}
+        """Times are of a turn, and of as many decodings; errors and sizes of the first."""
+        return key_of(entrant.key, turn, self.plan.decodes, self.command.measuring if turn == 0 else "")
 
     def known(self, entrant, turn):
         """What is remembered, where it has all that this plan measures: another plan's turn is as good."""
-        record = self.remembered(entrant, turn)
+        record = self.journal.get(self.turn_key(entrant, turn))
         return record if record and (turn > 0 or record["measures"].keys() >= set(self.plan.measures)) else None
 
     def measure(self, entrant, turn):
@@ -138,8 +134,8 @@ class Race:
             record = {"sequence": clip.name, "coding": entrant.coding.name, "point": point, "turn": turn, "bytes": files.size,
                       "encode_s": files.seconds, "decode_s": seconds, **files.told}
             if turn == 0:
-                others = self.remembered(entrant, turn).get("measures", {})  # another plan's, which looks for them in the same line
-                measures = list(dict.fromkeys([*self.plan.measures, *others]))
+                others = self.journal.get(self.turn_key(entrant, turn)).get("measures", {})  # another plan's, which looks for them here
+                measures = sorted({*self.plan.measures, *others})
                 record["measures"] = self.command.compare(clip, back, measures, point.get("order", "keep"))
             return record
 

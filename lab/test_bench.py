@@ -219,6 +219,13 @@ class Races(unittest.TestCase):
             self.assertEqual([["kg" in row, "sted" in row] for row in (less.rows[0], again.rows[0])], [[False, True], [True, False]])
             self.assertEqual(list(less.about), ["sted"])
 
+    def test_a_turn_of_fewer_decodings_does_not_count(self):
+        with tempfile.TemporaryDirectory() as folder:
+            book = []
+            self.run_race(folder, book)
+            self.run_race(folder, book, decodes=3)
+            self.assertEqual(len(book), 24)
+
     def test_a_stopwatch_counts_work_not_waiting(self):
         watch = Stopwatch()
         with watch.running():
