@@ -96,7 +96,7 @@ struct Gatherer {
 Status Gatherer::add(const GltfShown& shown, bool mirrored)
 {
     const GltfNode& node = source.scene.nodes[shown.node];
-    const GltfMesh& mesh = source.body.meshes[shown.mesh];
+    const GltfMesh& mesh = source.body.meshes[node.mesh];
     const std::size_t instance = ++nodes[node.name];
     for (const GltfTriangles& primitive : mesh.primitives) {
         const std::uint64_t total = animation.triangles.size() + primitive.triangles.size();

@@ -77,8 +77,8 @@ Result<std::uint32_t> BodyBuilder::part_of(std::uint32_t number, std::uint32_t s
 
 Status BodyBuilder::add(std::uint32_t number)
 {
-    GltfShown shown{number, scene.nodes[number].mesh, {}};
-    for (const std::uint32_t set : body.meshes[shown.mesh].sets) {
+    GltfShown shown{number, {}};
+    for (const std::uint32_t set : body.meshes[scene.nodes[number].mesh].sets) {
         MESHREEL_TRY(const std::uint32_t part, part_of(number, set));
         shown.parts.push_back(part);
     }

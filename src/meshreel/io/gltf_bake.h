@@ -15,11 +15,10 @@ struct GltfPart {
     bool skinned = false;
 };
 
-/// A node and its mesh.
+/// A node with a mesh.
 struct GltfShown {
     std::uint32_t node = 0;
-    std::uint32_t mesh = 0;           ///< into GltfBody::meshes
-    std::vector<std::uint32_t> parts; ///< into GltfBody::parts, one for each of GltfMesh::sets
+    std::vector<std::uint32_t> parts; ///< into GltfBody::parts, one for each of the mesh's GltfMesh::sets
 };
 
 /// Everything that is shown, in node order.

@@ -81,6 +81,7 @@ Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
 
     Animation animation;
     MESHREEL_TRY(const Selection chosen, select_frames(options.frames, times.times_s.size()));
+    MESHREEL_CHECK(within_work(document.limits, chosen.count, work_of(scene, body), bytes_of(document)));
     for (std::uint64_t f = 0; f < chosen.count; ++f) animation.times_s.push_back(times.times_s[chosen[f]]);
     animation.vertex_count = body.vertex_count;
     animation.meta.name = clip.name;
@@ -90,7 +91,6 @@ Result<Animation> load(const GltfDocument& document, const LoadOptions& options)
     MESHREEL_CHECK(read_gltf_appearance({document, scene, body, options.warn}, animation));
     MESHREEL_CHECK(
         within(document.limits, animation.vertex_count, animation.triangles.size(), animation.frame_count()));
-    MESHREEL_CHECK(within_work(document.limits, animation.frame_count(), work_of(scene, body), bytes_of(document)));
     MESHREEL_CHECK(document.budget->take(animation.frame_count() * animation.vertex_count * 12,
                                          document.json().member("animations")));
     animation.positions.resize(animation.frame_count() * animation.vertex_count * 3);
