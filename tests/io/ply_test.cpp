@@ -158,6 +158,25 @@ TEST(Ply, AttributesThatLookLikePartsOfOneStayApart)
     EXPECT_EQ(read->appearance.attributes[2].name, made.appearance.attributes[2].name);
 }
 
+TEST(Ply, PartsStayTogetherWhereANameIsTaken)
+{
+    Animation made = tetrahedron(1);
+    const auto add = [&](const char* name, std::size_t components) {
+        const Bytes bytes(4 * components, static_cast<std::uint8_t>(name[0]));
+        made.appearance.attributes.push_back(
+            {name, Domain::vertex, Scalar::u8, static_cast<std::uint8_t>(components), false, bytes, {}});
+    };
+    add("s", 1), add("uv0", 2), add("heat_1", 1), add("heat", 2);
+    const auto read = parsed_ply(*write_ply(made, 0, {}));
+    ASSERT_TRUE(read.ok()) << why(read);
+    ASSERT_EQ(read->appearance.attributes.size(), 4u);
+    for (const char* name : {"s", "uv0", "heat_1", "heat_"}) {
+        const Attribute* found = read->appearance.find(name);
+        ASSERT_NE(found, nullptr) << name;
+        EXPECT_EQ(found->values[0], name[0]) << name;
+    }
+}
+
 TEST(Ply, TrianglesWithoutAMaterialStayWithoutOne)
 {
     Animation made = tetrahedron(1);

@@ -23,6 +23,24 @@ struct PlyValues {
     std::vector<std::uint32_t> value; ///< of each row, a place in the table or no_value
 };
 
+/// An attribute's name as a word of a header.
+std::string stem_of(const Attribute& attribute)
+{
+    std::string stem = attribute.name.empty() ? "unnamed" : attribute.name;
+    std::ranges::replace_if(
+        stem, [](unsigned char c) { return c <= ' ' || c == 127 || c == '#'; }, '_');
+    return stem;
+}
+
+/// stem_0, stem_1, ..., which are read as one attribute.
+std::vector<std::string> numbered(const std::string& stem, std::size_t components)
+{
+    if (components == 1) return {stem};
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < components; ++c) names.push_back(concat(stem, "_", c));
+    return names;
+}
+
 std::vector<std::string> property_names(const Attribute& attribute)
 {
     const std::size_t n = attribute.components;
@@ -32,12 +50,7 @@ std::vector<std::string> property_names(const Attribute& attribute)
     const bool color = attribute.name == (vertex ? "color0" : "face_color");
     if (color && n == 3) return {"red", "green", "blue"};
     if (color && n == 4) return {"red", "green", "blue", "alpha"};
-    std::vector<std::string> names;
-    std::string stem = attribute.name.empty() ? "unnamed" : attribute.name;
-    std::ranges::replace_if(
-        stem, [](unsigned char c) { return c <= ' ' || c == 127 || c == '#'; }, '_');
-    for (std::size_t c = 0; c < n; ++c) names.push_back(n == 1 ? stem : concat(stem, "_", c));
-    return names;
+    return numbered(stem_of(attribute), n);
 }
 
 /// Two properties of one name would not be read back, nor would a_1 behind a_0 stay an attribute of its own.
@@ -45,11 +58,14 @@ void keep_apart(std::vector<PlyValues>& all, std::set<std::string> taken)
 {
     std::set<std::string> further; // would be read as components of an attribute before
     for (PlyValues& columns : all) {
-        if (further.contains(columns.names.front())) columns.names.front() += '_';
-        for (std::string& name : columns.names)
-            while (!taken.insert(name).second) name += '_';
-        const std::string& first = columns.names.front();
-        if (first.ends_with("_0")) further.insert(concat(first.substr(0, first.size() - 1), columns.names.size()));
+        std::vector<std::string>& names = columns.names;
+        const auto is_taken = [&](const std::string& name) { return taken.contains(name); };
+        for (std::string stem = stem_of(*columns.attribute);
+             further.contains(names.front()) || std::ranges::any_of(names, is_taken); stem += '_')
+            names = numbered(stem, names.size()); // all of them: parts of other names would be attributes of their own
+        taken.insert(names.begin(), names.end());
+        const std::string& first = names.front();
+        if (first.ends_with("_0")) further.insert(concat(first.substr(0, first.size() - 1), names.size()));
     }
 }
 
