@@ -166,11 +166,11 @@ TEST(Ply, PartsStayTogetherWhereANameIsTaken)
         made.appearance.attributes.push_back(
             {name, Domain::vertex, Scalar::u8, static_cast<std::uint8_t>(components), false, bytes, {}});
     };
-    add("s", 1), add("uv0", 2), add("heat_1", 1), add("heat", 2);
+    add("s", 1), add("uv0", 2), add("heat_1", 1), add("heat", 2), add("a", 1), add("a ", 2), add("a_", 1);
     const auto read = parsed_ply(*write_ply(made, 0, {}));
     ASSERT_TRUE(read.ok()) << why(read);
-    ASSERT_EQ(read->appearance.attributes.size(), 4u);
-    for (const char* name : {"s", "uv0", "heat_1", "heat_"}) {
+    ASSERT_EQ(read->appearance.attributes.size(), 7u);
+    for (const char* name : {"s", "uv0", "heat_1", "heat_", "a", "a_", "a__"}) {
         const Attribute* found = read->appearance.find(name);
         ASSERT_NE(found, nullptr) << name;
         EXPECT_EQ(found->values[0], name[0]) << name;

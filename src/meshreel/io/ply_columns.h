@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "meshreel/base/text.h"
 #include "meshreel/io/io.h"
 #include "meshreel/io/ply_header.h"
 
@@ -27,5 +28,14 @@ std::vector<PlyColumn> take_columns(std::vector<PlyColumn>& columns, std::vector
 /// All columns as attributes, one value a row: normals, texture coordinates and colours by their usual names, name_0,
 /// name_1, ... of one type as one attribute, all others alone. Warns of what float32 cannot hold.
 std::vector<Attribute> attributes_of(std::vector<PlyColumn> columns, Domain domain, const LoadOptions& options);
+
+/// What the texture coordinates of corners are called: the first of uv0, uv1, ... that no row of the file carries.
+template <class Carried>
+std::string corner_uv_name(const Carried& is_carried)
+{
+    std::size_t n = 0;
+    while (is_carried(concat("uv", n))) ++n;
+    return concat("uv", n);
+}
 
 } // namespace meshreel::io

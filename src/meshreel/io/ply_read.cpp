@@ -223,7 +223,7 @@ void PlyReader::carry_uvs()
     bool in_order = uvs_.size() / 2 == uv_of_.size();
     for (std::size_t i = 0; i < uv_of_.size(); ++i) in_order = in_order && uv_of_[i] == i;
     if (in_order) uv_of_.clear();
-    std::string name = mesh_.appearance.find("uv0") ? "uv1" : "uv0";
+    std::string name = corner_uv_name([&](const std::string& uv) { return mesh_.appearance.find(uv) != nullptr; });
     mesh_.appearance.attributes.push_back(
         indexed(float_attribute(std::move(name), Domain::corner, 2, uvs_), std::move(uv_of_)));
 }

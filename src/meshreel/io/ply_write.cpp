@@ -8,6 +8,7 @@
 #include "meshreel/io/binary_read.h"
 #include "meshreel/io/frames.h"
 #include "meshreel/io/ply.h"
+#include "meshreel/io/ply_columns.h"
 #include "meshreel/io/ply_header.h"
 #include "meshreel/io/sequence.h"
 #include "meshreel/io/text_write.h"
@@ -53,16 +54,22 @@ std::vector<std::string> property_names(const Attribute& attribute)
     return numbered(stem_of(attribute), n);
 }
 
-/// Two properties of one name would not be read back, nor would a_1 behind a_0 stay an attribute of its own.
+/// Two properties or attributes of one name would not be read back, nor would a_1 behind a_0 stay an attribute of its own.
 void keep_apart(std::vector<PlyValues>& all, std::set<std::string> taken)
 {
     std::set<std::string> further; // would be read as components of an attribute before
     for (PlyValues& columns : all) {
         std::vector<std::string>& names = columns.names;
+        std::string stem = stem_of(*columns.attribute);
         const auto is_taken = [&](const std::string& name) { return taken.contains(name); };
-        for (std::string stem = stem_of(*columns.attribute);
-             further.contains(names.front()) || std::ranges::any_of(names, is_taken); stem += '_')
-            names = numbered(stem, names.size()); // all of them: parts of other names would be attributes of their own
+        const auto clashes = [&] {
+            return is_taken(stem) || further.contains(names.front()) || std::ranges::any_of(names, is_taken);
+        };
+        for (std::string next = stem; clashes(); next += '_') {
+            stem = next;
+            names = numbered(stem, names.size()); // all of them: the others would be attributes of their own
+        }
+        taken.insert(stem);
         taken.insert(names.begin(), names.end());
         const std::string& first = names.front();
         if (first.ends_with("_0")) further.insert(concat(first.substr(0, first.size() - 1), names.size()));
@@ -115,9 +122,10 @@ private:
 /// Sorts the attributes into columns of vertices and of faces, the texture coordinates of corners, and the rest.
 void PlyWriter::choose()
 {
-    const Attribute* first_uvs = animation_.appearance.find("uv0");
-    const bool taken = first_uvs && vertex_values(*first_uvs, animation_); // by the vertices, as the reader has it
-    const std::string_view corner_uv_name = taken ? "uv1" : "uv0";
+    const std::string corner_uvs = corner_uv_name([&](const std::string& uv) { // as the reader has it
+        const Attribute* found = animation_.appearance.find(uv);
+        return found && (found->domain == Domain::triangle || vertex_values(*found, animation_));
+    });
     for (const Attribute& attribute : animation_.appearance.attributes) {
         if (attribute.domain == Domain::triangle) {
             std::vector<std::uint32_t> value(animation_.triangles.size());
@@ -126,7 +134,7 @@ void PlyWriter::choose()
             of_faces_.push_back({&attribute, property_names(attribute), std::move(value)});
         } else if (auto value = vertex_values(attribute, animation_)) {
             of_vertices_.push_back({&attribute, property_names(attribute), std::move(*value)});
-        } else if (attribute.name == corner_uv_name && attribute.components == 2 && attribute.type == Scalar::f32) {
+        } else if (attribute.name == corner_uvs && attribute.components == 2 && attribute.type == Scalar::f32) {
             corner_uvs_ = &attribute;
         } else {
             seamed_.push_back(&attribute);
